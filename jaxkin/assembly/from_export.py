@@ -63,10 +63,8 @@ def from_export(assembly: Assembly, exported: Exported, said: Said) -> Mechanism
     joints = _joints(assembly, said, groups, constraints, noise, notes, exported.motors)
     groups += rigid_subassemblies(assembly.parts, said, groups, [each.joint.parts for each in joints if each.joint])
     known = Known(assembly._measured, Contacts(()), said.fixed, said.rigid, said.joints)
-    known.add(groups)
-    body = known.body
-    known.found += [each for each in joints if body[each.parts[0]] != body[each.parts[1]]]
-    known.add(tied_to_nothing(known))
+    known.take([*groups, *joints])
+    known.take(tied_to_nothing(known))
     mechanism = from_words(assembly, Contacts(()), said, known.found, exported.system)
     owner = {name: name if name in mechanism.joints else name.rpartition(".")[0] for name in exported.motors}
     motors = tuple(name for name, joint in owner.items() if joint in mechanism.joints)

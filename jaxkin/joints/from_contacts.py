@@ -95,7 +95,7 @@ def joints_from_contacts(
     groups = _pairs_of_bodies(pairs, bodies if combine and bodies else {}, order)
     found = [each for group in groups for each in _joints_of_bodies(known, group, combine)]
     joints, angle, length = _align_joints([*(each.joint for each in found), *given], noise)
-    joints = (*map(_joint_forwards, joints[: len(found)]), *joints[len(found) :])
+    joints = (*map(joint_forwards, joints[: len(found)]), *joints[len(found) :])
     return FoundJoints(
         joints,
         {each.joint.name: tuple(contacts[k] for k in each.members) for each in found},
@@ -223,7 +223,7 @@ def _align_joints(joints: Sequence[Joint], noise: Noise) -> tuple[tuple[Joint, .
     return tuple(aligned.get(each.name, each) for each in joints), angle, length
 
 
-def _joint_forwards(joint: Joint) -> Joint:
+def joint_forwards(joint: Joint) -> Joint:
     """Turn the frames of a joint so that their z axes point forwards (`forwards`)."""
     poses = np.array([forwards(pose) for pose in joint.frames_1])
     return replace(joint, frames_1=poses, frames_2=poses)

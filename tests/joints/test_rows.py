@@ -47,7 +47,9 @@ def test_every_contact_state_has_a_kind_and_every_pair_a_movement():
 
 def test_no_other_file_asks_for_a_contact_state_by_its_letter():
     """What a state is (flat, a fit, a pin) its row says."""
-    name = re.compile(r"""\bstates? (==|!=|in|not in) [({[]?["'][a-p]+["']|["'][a-p]["'] (not )?in states""")
+    name = re.compile(
+        r"""(\bstates?|\.letter)\s*(==|!=|in|not in) [({[]?["'][a-p]+["']|["'][a-p]["'] (not )?in states"""
+    )
     text = {str(path.relative_to(PACKAGE)): path.read_text("utf-8") for path in PACKAGE.rglob("*.py")}
     assert {path for path, lines in text.items() if name.search(lines)} == set()
 

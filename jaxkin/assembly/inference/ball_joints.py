@@ -11,7 +11,7 @@ from jaxkin.joints.evidence import Evidence, EvidenceKind
 def ball_joints(known: Known) -> list[Inference]:
     """Infer ball joints of bodies that touch nowhere, with a ball of one in a socket of the other."""
     body, result = known.body, []
-    tied = known.jointed | {frozenset(body[part] for part in pair) for pair in known.touching}
+    tied = {*known.jointed, *(frozenset(body[part] for part in pair) for pair in known.touching)}
     for each in known.sockets:
         owners = frozenset(body[part] for part in each.parts)
         if len(owners) < 2 or owners in tied:

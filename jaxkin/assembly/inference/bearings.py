@@ -69,15 +69,15 @@ def bearings(parts: Sequence[Part], bores: Mapping[str, Sequence[Bore]]) -> list
     coaxial = {ring.part.name for ring in rings}
     inside = [[part for part in parts if part not in (a.part, b.part) and _between(part, a, b)] for a, b in nested]
     rolling = [
-        sum(_pieces(part) for part in some if part.name not in coaxial and _rolls(part, *rings))
-        for some, rings in zip(inside, nested, strict=True)
+        sum(_pieces(part) for part in between if part.name not in coaxial and _rolls(part, *pair))
+        for pair, between in zip(nested, inside, strict=True)
     ]
-    some = [each for each in zip(nested, inside, rolling, strict=True) if each[2] >= ROLLING or _flush(*each[0])]
-    sure = [pair for pair, *_ in some]
-    some = [each for each in some if not _hides_a_bearing(*each[0], sure)]
+    likely = [each for each in zip(nested, inside, rolling, strict=True) if each[2] >= ROLLING or _flush(*each[0])]
+    sure = [pair for pair, *_ in likely]
+    seated = [each for each in likely if not _hides_a_bearing(*each[0], sure)]
     found: list[Bearing] = []
     taken: set[str] = set()
-    for (outer, inner), between, count in sorted(some, key=lambda each: _room(*each[0]), reverse=True):
+    for (outer, inner), between, count in sorted(seated, key=lambda each: _room(*each[0]), reverse=True):
         members = tuple(part.name for part in between if part.name not in taken)
         if not {outer.part.name, inner.part.name} & taken:
             taken |= {outer.part.name, inner.part.name, *members}

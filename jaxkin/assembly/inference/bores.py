@@ -46,8 +46,9 @@ class Bore:
         """Tell whether the axis is that of another bore, within `angle` (radians) and `length` (over the other's
         radius)."""
         offset = self.point - other.point
-        apart = np.linalg.norm(offset - (offset @ other.axis) * other.axis)
-        return bool(np.linalg.norm(np.cross(self.axis, other.axis)) <= angle and apart <= length * other.radius)
+        if np.linalg.norm(offset - (offset @ other.axis) * other.axis) > length * other.radius:
+            return False  # before the costlier cross product
+        return bool(np.linalg.norm(np.cross(self.axis, other.axis)) <= angle)
 
     def reach(self, along: Vector) -> tuple[float, float]:
         """Find where the bore begins and ends, along a direction that is parallel to its axis."""

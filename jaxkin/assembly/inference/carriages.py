@@ -50,7 +50,7 @@ def carriages(known: Known) -> list[Inference]:
     rail exactly are left to the contacts that they have there.
     """
     body, result = known.body, []
-    tied = known.jointed | {frozenset(body[part] for part in pair) for pair in known.touching}
+    tied = {*known.jointed, *(frozenset(body[part] for part in pair) for pair in known.touching)}
     runs: dict[tuple[str, str], list[_Run]] = {}
     for owners, point, axis in _hinges(known):
         for turning, carrier in (owners, owners[::-1]):

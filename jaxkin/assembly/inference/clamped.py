@@ -70,7 +70,7 @@ def clamped_hubs(known: Known, fastening: Collection[str]) -> list[Inference]:
         across = [bore for bore in crossing if bore.radius <= MAX_ACROSS * pair.one.radius]
         slits = [bore for bore in across if _is_slit(known, bore, pair)]
         pinched = any(inside.get(id(bore)) for bore in slits)
-        post = (pinched or hub in on.get(shaft, set())) and not screw_holes(known.bores[shaft], pair.one)
+        post = (pinched or hub in on.get(shaft, [])) and not screw_holes(known.bores[shaft], pair.one)
         if not crossing or not (turned or post):
             continue
         screws = [screw for bore in crossing if (screw := _screw(known, bore, pair, fastening)) is not None]

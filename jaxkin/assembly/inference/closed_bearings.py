@@ -30,8 +30,8 @@ _SIZES = """
 9.525 3.175; 6.35 12.7 3.175; 6.35 12.7 4.7625; 6.35 15.875 4.978; 6.35 19.05 7.142; 9.525 22.225 7.142; 12.7 28.575
 7.938; 15.875 34.925 8.731; 19.05 41.275 11.112
 """
-"""Bore, outside diameter and width of deep groove ball bearings, millimetres: dimension series 17, 18, 19, 10, 02 and
-03, miniature bearings open and with shields, and inch series R."""
+"""Bore, outside diameter and width of deep groove ball bearings, millimetres: common sizes of the series 60, 62, 63 and
+67 to 69 up to 60 mm bore, miniature bearings open and with shields, and inch series R; others are not told."""
 
 
 SIZES: Float[np.ndarray, "sizes 3"] = np.array([row.split() for row in _SIZES.replace("\n", " ").split(";")], float)
@@ -39,7 +39,7 @@ SIZES: Float[np.ndarray, "sizes 3"] = np.array([row.split() for row in _SIZES.re
 
 
 def closed_bearings(parts: Sequence[Part], bores: Mapping[str, Sequence[Bore]], metre: float = 1e-3) -> list[Ring]:
-    """Find the rings that have nothing beside their hole and the size of a bearing.
+    """Find the rings without other holes that have the size of a ball bearing.
 
     `bores` are the bores and pins of each part by its name, and `metre` is the unit of lengths in metres.
     """

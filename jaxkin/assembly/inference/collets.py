@@ -31,15 +31,15 @@ def collets(known: Known) -> list[Inference]:
         if not _has_steps(known, piece, shaft) or any(piece.part in each.parts for each in result):
             continue
         around = [each for each in known.bores[piece.part] if not each.hole and each.on_axis_of(piece)]
-        rings = [
+        closing = (
             each
             for name in known.names
             if name not in (piece.part, shaft.part)
             for each in known.bores[name]
             if each.hole and any(_closes(each, outside) for outside in around)
-        ]
+        )
         # what also holds other pieces comes first; the hole that the shaft itself is in, too, is no closing ring
-        for ring in rings[:1]:
+        if (ring := next(closing, None)) is not None:
             text = f"the split ring {piece.part!r} is in a groove of {shaft.part!r}, and {ring.part!r} closes it"
             parts = known.in_order((piece.part, shaft.part, ring.part))
             result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, (("radius", piece.radius),), text)))

@@ -33,6 +33,9 @@ and the screw of a flag have up to a third."""
 MAX_EXPOSED = 1.0
 """Length of a pin outside of its holes, over the length inside: rods that something slides on have more."""
 
+_PARALLEL = float(np.cos(0.01))
+"""Cosine of the angle up to which the axes of a pattern are parallel: bolts are drawn askew by no hundredth."""
+
 
 def fasteners(parts: Sequence[Part], bores: Sequence[Bore], every: Mapping[str, Sequence[Bore]]) -> set[str]:
     """Find the parts that have the form of a fastener: all bores on one axis, and nothing far from that axis.
@@ -94,10 +97,6 @@ def _is_mostly_pin(part: Part, own: Sequence[Bore]) -> bool:
     return roundness(outline, np.zeros(2)) > MIN_ROUND or pinned > MIN_PIN * part.volume
 
 
-_PARALLEL = float(np.cos(0.01))
-"""Cosine of the angle up to which the axes of a pattern are parallel: bolts are drawn askew by no hundredth."""
-
-
 @dataclass(frozen=True, eq=False)
 class Stack:
     """Fasteners on one axis, such as a screw with its washers and nut, and what they go through."""
@@ -118,7 +117,7 @@ def stacks(
     order: Mapping[str, int],
 ) -> list[Stack]:
     """Find the stacks of an assembly; `touching` are the pairs of parts with contacts."""
-    import networkx as nx
+    import networkx as nx  # here, as it takes as long to import as half of JAX
 
     across = [pair for pair in found if _is_cotter(pair, found, fastening)]
     found = [pair for pair in found if not pair.virtual or {*pair.parts} <= {*fastening}]

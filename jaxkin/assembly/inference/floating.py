@@ -29,7 +29,7 @@ def floating(known: Known, joined: Sequence[Hinge]) -> list[Inference]:
     or hinges `joined`, and so stay where they are along it.
     """
     body, result = known.body, []
-    tied = known.jointed | {frozenset(body[each] for each in hinge.inference.parts) for hinge in joined}
+    tied = {*known.jointed, *(frozenset(body[each] for each in hinge.inference.parts) for hinge in joined)}
     turning = [each.joint for each in (*known.found, *(each.inference for each in joined)) if each.joint]
     turning = [joint for joint in turning if joint.kind is JointKind.REVOLUTE]
     if len(turning) < 2:

@@ -167,7 +167,7 @@ def _room(known: Known, line: Line, touching: bool, kept: Sequence[Line]) -> tup
     None without faces."""
     body, pair, hole = known.body, line.first, line.first.other
     rigid = [part for part in known.parts if part.name not in known.springs]
-    groups = [_kept_with(owner, line, kept) for owner in line.owners]
+    groups = [_kept_with(owner, line, kept) for owner in known.in_order(line.owners)]
     one, other = (
         [stop for part in rigid if body[part.name] in group for stop in known.measured.stops(part, hole)]
         for group in groups

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
+from typing import NamedTuple
 
 from jaxkin.assembly.inference.ball_joints import ball_joints
 from jaxkin.assembly.inference.bearing_joints import bearing_bodies, bearing_joints
@@ -65,6 +66,15 @@ from jaxkin.contacts.contact import Contacts
 from jaxkin.joints.joint import Joint
 
 
+class Inferred(NamedTuple):
+    """What solids imply."""
+
+    found: list[Inference]
+    stops: list[list[Inference]]
+    """Lists of joints without a slide, from the surest to the least sure. Each joint may replace a sliding one; the
+    caller takes it where that slide moves nothing else."""
+
+
 def infer(
     measured: Measured,
     contacts: Contacts,
@@ -74,12 +84,9 @@ def infer(
     ignored: Collection[Pair] = (),
     clearance: float | None = None,
     springs: Collection[str] = (),
-) -> tuple[list[Inference], list[list[Inference]]]:
-    """Infer bodies and joints from solids, in the order in which they are the surest: first what is one body, then
-    joints between bodies, then parts that nothing ties.
+) -> Inferred:
+    """Infer bodies and joints from solids, the surest rule first; later rules never change what earlier ones found.
 
-    Apart from these comes what would stop slides that exact contacts allow, the surest first: for those slides that are
-    of no use.
     Between the parts of pairs that are `ignored` nothing is inferred; `clearance` is that of `common_axes`.
     What is pushed by `springs` is not stopped by them.
     """
@@ -90,34 +97,32 @@ def infer(
     rolling = measured.bearings
     known.axes = outside_of(rolling, known.axes)
     known.rings = {frozenset((each.outer, each.inner)) for each in rolling}
-    known.add(bearing_bodies(known, rolling))
-    known.add(clamped_on_rings(known, rolling))
+    known.take(bearing_bodies(known, rolling))
+    known.take(clamped_on_rings(known, rolling))
     closed = measured.closed_bearings
     known.rings |= {frozenset(pair.parts) for pair in in_closed_bearings(known, closed)}
     known.closed = {each.part.name for each in closed}
-    known.add(closed_bearing_bodies(known, closed))
+    known.take(closed_bearing_bodies(known, closed))
 
     # shafts and hubs: keys, flats, balls of rod ends, split rings, bushes, screws across
-    keyed = feathers(known)
-    known.add([each for each in keyed if each.joint is None])
-    known.found += [each for each in keyed if each.joint]
-    known.add([*keyed_hubs(known), *flatted_hubs(known)])
-    known.add(bolted_balls(known))
-    known.add([*collets(known), *self_holding_tapers(known)])
+    known.take(feathers(known))
+    known.take([*keyed_hubs(known), *flatted_hubs(known)])
+    known.take(bolted_balls(known))
+    known.take([*collets(known), *self_holding_tapers(known)])
     set_in = sleeves(known)
     driven = driven_sleeves(known, set_in)
     set_in = [each for each in set_in if each.part not in driven]
-    known.add(seated_sleeves(known, set_in))
+    known.take(seated_sleeves(known, set_in))
     fastening = fasteners(known.parts, [bore for pair in known.axes for bore in (pair.one, pair.other)], known.bores)
-    known.add(clamped_hubs(known, fastening))
+    known.take(clamped_hubs(known, fastening))
     known.sleeves = {each.part for each in set_in} - {*fixed}
 
     # which parts are fasteners: not rings and sleeves, nor what slides, turns or rolls
     fastening -= {name for each in rolling for name in (each.outer, each.inner)} | known.sleeves | known.closed
     fastening -= sliding_rods(known, set_in) | hollow_axles(known) | driven | barrels(known, set_in)
     fastening -= rollers(known, fastening)
-    known.add([*squared_hubs(known, fastening), *pressed_on_shoulders(known, fastening)])
-    known.add(locked_threads(known, fastening))
+    known.take([*squared_hubs(known, fastening), *pressed_on_shoulders(known, fastening)])
+    known.take(locked_threads(known, fastening))
     body = known.body
     others = [each for each in contacts if not (each.contact_state.is_flat or each.contact_state.is_pin)]
     others = [each for each in others if not is_head_on_tube(known, each)]
@@ -125,59 +130,57 @@ def infer(
     fastening -= {*fixed, *(part for parts in apart for part in parts)}
 
     # pins that are in one part: threads, motors, posts, press fits, rivets, rings in grooves
-    known.add(screwed_in(known, fastening))
-    known.found += motor_shafts(known, fastening)
-    known.add(embedded_pins(known, fastening))
-    known.add(butting_pins(known, fastening))
-    known.add(standing_rods(known, fastening))
-    known.add([*pressed_pins(known), *bolted_ends(known)])
-    known.add([*riveted_studs(known, fastening), *screwed_on_ends(known), *screwed_fittings(known)])
-    known.add([*pressed_rings(known), *retaining_rings(known)])
+    known.take(screwed_in(known, fastening))
+    known.take(motor_shafts(known, fastening))
+    known.take(embedded_pins(known, fastening))
+    known.take(butting_pins(known, fastening))
+    known.take(standing_rods(known, fastening))
+    known.take([*pressed_pins(known), *bolted_ends(known)])
+    known.take([*riveted_studs(known, fastening), *screwed_on_ends(known), *screwed_fittings(known)])
+    known.take([*pressed_rings(known), *retaining_rings(known)])
 
     # what fasteners hold: patterns, then each fastener with its body, then one screw alone
     outside = [pair for pair in known.axes if not {*pair.parts} & known.closed]  # bearings hold no fastener
     touching = {pair for pair in known.touching if not pair & known.closed}
     drawn = stacks(outside, fastening, touching, known.order)
     every = with_hosts([*drawn, *spacers(known, fastening)], known)
-    while known.add(bolted_bodies(known, every)):
+    while known.take(bolted_bodies(known, every)):
         pass
-    known.add(attached_fasteners(known, every))
-    known.add(empty_nuts(known))
-    known.add(screwed_bodies(known, every))
-    known.add(clamped_by_one_screw(known, every))
-    known.add(clamped_on_slots(known, every))
-    known.add([*clamped_halves(known), *u_bolts(known)])
+    known.take(attached_fasteners(known, every))
+    known.take(empty_nuts(known))
+    known.take(screwed_bodies(known, every))
+    known.take(clamped_by_one_screw(known, every))
+    known.take(clamped_on_slots(known, every))
+    known.take([*clamped_halves(known), *u_bolts(known)])
 
     # joints between bodies: bearings, balls, shoes, hinges, slides, wheels
-    known.found += bearing_joints(known, rolling)
-    known.found += ball_joints(known)
-    known.found += shoes(known)
-    known.add([*pinned_slides(known), *dowelled(known)])
+    known.take(bearing_joints(known, rolling))
+    known.take(ball_joints(known))
+    known.take(shoes(known))
+    known.take([*pinned_slides(known), *dowelled(known)])
     turning = closed_bearing_joints(known, closed)
-    known.found += [each.inference for each in turning if each.stop is Stop.NONE]
+    known.take([each.inference for each in turning if each.stop is Stop.NONE])
     body = known.body
     borne = {frozenset(body[part] for part in each.inference.parts) for each in turning}
     others = hinges(known, fastening)
     joined = [*turning, *(each for each in others if {body[part] for part in each.inference.parts} not in borne)]
     guided = guided_on_faces(known)
     joined += [*set_on_pins(known, joined), *guided]
-    known.found += floating(known, joined)
-    known.found += [each.inference for each in joined if each.stop is Stop.NONE and each not in turning]
-    known.found += loose_slides(known)
-    known.found += carriages(known)
+    known.take(floating(known, joined))
+    known.take([each.inference for each in joined if each.stop is Stop.NONE and each not in turning])
+    known.take(loose_slides(known))
+    known.take(carriages(known))
 
     # what is left: parts that lie on one other, or that nothing ties
-    known.add(screwed_flat(known))
-    known.found += lone_screws(known)
-    known.add(lying_on_one(known, guided))
-    known.add(sunk_in_siblings(known))
-    far = far_joints(known)
-    known.add([each for each in far if each.joint is None])
-    known.found += [each for each in far if each.joint]
-    known.add(tied_to_nothing(known))
+    known.take(screwed_flat(known))
+    known.take(lone_screws(known))
+    known.take(lying_on_one(known, guided))
+    known.take(sunk_in_siblings(known))
+    known.take(far_joints(known))
+    known.take(tied_to_nothing(known))
 
     # what would stop slides that contacts allow, by how sure it is
     body = known.body
     stops = [each for each in joined if len({body[part] for part in each.inference.parts}) > 1]
     levels = [[each.inference for each in stops if each.stop is level] for level in Stop if level is not Stop.NONE]
-    return known.found, levels
+    return Inferred(known.found, levels)

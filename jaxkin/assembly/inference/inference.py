@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 from jaxkin._names import listed
 from jaxkin.joints.evidence import Evidence
+from jaxkin.joints.from_contacts import joint_forwards
 from jaxkin.joints.joint import Joint
 
 INFERRED = "inferred from"
@@ -23,8 +24,8 @@ class Inference:
 
     @classmethod
     def of(cls, joint: Joint, evidence: Evidence) -> Inference:
-        """Infer a joint, which carries its evidence, too."""
-        return cls(joint.parts, evidence, replace(joint, evidence=evidence))
+        """Infer a joint, whose axis points forwards as those of exact contacts do; it carries its evidence, too."""
+        return cls(joint.parts, evidence, replace(joint_forwards(joint), evidence=evidence))
 
     def __str__(self) -> str:
         parts = listed([repr(part) for part in self.parts])

@@ -40,7 +40,7 @@ def lying_on_one(known: Known, guided: Sequence[Hinge] = ()) -> list[Inference]:
     met: dict[tuple[str, str], tuple[str, str]] = {}
     # in the order of the file: the first of several bodies that could be added decides what the others touch
     contacts = sorted(known.contacts, key=lambda each: sorted(known.order[part] for part in each.parts))
-    jointed = [each.parts for each in known.found if each.joint] + [tuple(pair) for pair in known.by_hand]
+    jointed = [each.parts for each in known.found if each.joint] + [known.in_order(pair) for pair in known.by_hand]
     for contact in contacts:
         for k, part in enumerate(contact.parts):
             surface, other = contact.surfaces[k], body[contact.parts[1 - k]]

@@ -32,7 +32,7 @@ def flatted_hubs(known: Known) -> list[Inference]:
     """Join hubs with the shafts whose flats keep them from turning, as those of motors and servos do: one flat, or two
     opposite ones.
 
-    That nothing drawn keeps the hub from sliding is the screw or the press fit that people do not draw.
+    What keeps the hub from sliding, a set screw or a press fit, is mostly not drawn, and is assumed.
     """
     result = []
     for pair in known.axes:
@@ -44,8 +44,8 @@ def flatted_hubs(known: Known) -> list[Inference]:
             continue
         flats = [
             each.surfaces[0].normal
-            for each in known.contacts
-            if {*each.parts} == {*pair.parts} and each.contact_state.is_flat and isinstance(each.surfaces[0], Plane)
+            for each in known.between[frozenset(pair.parts)]
+            if each.contact_state.is_flat and isinstance(each.surfaces[0], Plane)
         ]
         along = [normal for normal in flats if abs(normal @ pair.one.axis) < ACROSS]
         if along and all(np.linalg.norm(np.cross(normal, along[0])) < ACROSS for normal in along):
@@ -86,8 +86,8 @@ def _on_polygon(known: Known, shaft: str, axis: CommonAxis, fastening: Collectio
 def keyed_hubs(known: Known) -> list[Inference]:
     """Join hubs with their shafts and the keys between them.
 
-    A key keeps a hub from turning on its shaft; that nothing drawn keeps it from sliding is the set screw or the press
-    fit that people do not draw.
+    A key keeps a hub from turning on its shaft. What keeps the hub from sliding, a set screw or a press fit, is mostly
+    not drawn, and is assumed.
     """
     result = []
     for pair in known.axes:

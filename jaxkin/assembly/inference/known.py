@@ -24,7 +24,12 @@ Pair = frozenset[str]
 
 
 class Known:
-    """The solids and what is known of them so far: each step adds inferences, and the bodies follow."""
+    """What is known of the solids of an assembly.
+
+    Fixed: `solids`, `bores`, `tapped`, `sockets`, `between`. Growing, by `take`: `found`, from which `body` and
+    `jointed` follow. Set by `infer` between rules: `axes`, less those that only bearings have, `springs`, `rings`,
+    `closed`, `sleeves`. Sets are never gone through in their own order: it depends on the seed of hashes.
+    """
 
     def __init__(
         self,
@@ -43,15 +48,20 @@ class Known:
         self.group = _subassemblies(self.parts)
         """The sub-assembly that each part is in, by its path; () for those of the whole assembly."""
         self.rigid = [tuple(group) for group in rigid]
-        self.by_hand = {frozenset(joint.parts) for joint in joints}
+        self.by_hand = dict.fromkeys(frozenset(joint.parts) for joint in joints).keys()
         self.between: dict[Pair, list[Contact]] = {}
         """The exact contacts of each pair of parts."""
         for contact in contacts:
             self.between.setdefault(frozenset(contact.parts), []).append(contact)
-        self.touching = {*self.between}
+        self.touching = self.between.keys()
         self.pinned = {frozenset(contact.parts) for contact in contacts if contact.contact_state.is_pin}
         self.found: list[Inference] = []
+        self.body: Mapping[str, str] = bodies(self.names, self.fixed, self.rigid)
+        """The first part of the body that each part belongs to."""
+        self.jointed = self._jointed()
+        """The pairs of bodies that joints by hand or inferred joints join."""
         self.sleeves: set[str] = set()
+        """Bushes that are in another part, which they leave only by sliding."""
         self.springs: set[str] = set()
         """Springs, which stop nothing."""
         self.rings: set[Pair] = set()
@@ -65,19 +75,6 @@ class Known:
         self.sockets = [each for each in sockets(self.parts, clearance) if frozenset(each.parts) not in ignored]
         self.axes = [pair for pair in found if not pair.tapped and not self._is_neck(pair)]
         self.tapped = [pair for pair in found if pair.tapped]
-
-    @property
-    def body(self) -> Mapping[str, str]:
-        """The first part of the body that each part belongs to."""
-        groups = [each.parts for each in self.found if each.joint is None]
-        return bodies(self.names, self.fixed, [*self.rigid, *groups])
-
-    @property
-    def jointed(self) -> set[Pair]:
-        """The pairs of bodies that joints by hand or inferred joints join."""
-        body = self.body
-        pairs = (*self.by_hand, *(each.parts for each in self.found if each.joint))
-        return {frozenset(body[part] for part in pair) for pair in pairs}
 
     def in_order(self, names: Iterable[str]) -> tuple[str, ...]:
         """Sort names of parts as the assembly has them."""
@@ -132,22 +129,33 @@ class Known:
             spans.append((float(along.min()), float(along.max())))
         return max(low for low, _ in spans), min(high for _, high in spans)
 
-    def add(self, inferences: Sequence[Inference]) -> bool:
-        """Take inferences of parts that are not one body already, one after another; tell whether any was taken.
+    def take(self, inferences: Sequence[Inference]) -> bool:
+        """Take the inferences of a rule, bodies first; tell whether any was taken.
 
-        Parts that joints by hand or inferred joints join are left apart, and so are the rings of a bearing.
+        Parts that are one body are not joined again. Parts that joints by hand or inferred joints join are left apart,
+        and so are the rings of a bearing. Of joints those within a body are left out, and those between bodies that
+        something joined before: one rule may find several axes of two bodies, as bearings do.
         """
         before = len(self.found)
-        body = self.body
         jointed = [*self.by_hand, *self.rings, *(frozenset(each.parts) for each in self.found if each.joint)]
-        for each in inferences:
-            owners = {body[part] for part in each.parts}
-            apart = ({body[part] for part in pair} for pair in jointed)
+        for each in (each for each in inferences if each.joint is None):
+            owners = {self.body[part] for part in each.parts}
+            apart = ({self.body[part] for part in pair} for pair in jointed)
             if len(owners) > 1 and not any(len(pair) > 1 and pair <= owners for pair in apart):
                 self.found.append(each)
                 first = min(owners, key=self.order.__getitem__)
-                body = {part: first if owner in owners else owner for part, owner in body.items()}
+                self.body = {part: first if owner in owners else owner for part, owner in self.body.items()}
+        joined = self._jointed()
+        for each in (each for each in inferences if each.joint is not None):
+            owners = frozenset(self.body[part] for part in each.parts)
+            if len(owners) > 1 and owners not in joined:
+                self.found.append(each)
+        self.jointed = self._jointed()
         return len(self.found) > before
+
+    def _jointed(self) -> frozenset[Pair]:
+        pairs = (*self.by_hand, *(each.parts for each in self.found if each.joint))
+        return frozenset(frozenset(self.body[part] for part in pair) for pair in pairs)
 
     def _is_neck(self, pair: CommonAxis) -> bool:
         """Tell whether a pin in a hole is the neck of a ball in the opening of its socket: the ball guides it."""

@@ -96,7 +96,7 @@ def _neighbours(axes: Sequence[CommonAxis], body: Mapping[str, str]) -> list[Com
 
     Five levers on one axis have four hinges: the others follow from these, and would lock nothing but say more.
     """
-    import networkx as nx
+    import networkx as nx  # here, as it takes as long to import as half of JAX
 
     virtual = sorted((pair for pair in axes if pair.virtual), key=lambda pair: -engaged(pair))
     lines: list[tuple[Bore, nx.Graph]] = []

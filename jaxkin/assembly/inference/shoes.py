@@ -31,15 +31,17 @@ def shoes(known: Known) -> list[Inference]:
         if pair.virtual or pair.threaded or frozenset((body[shoe.name], carrier)) in tied:
             continue
         around = known.around(shoe, body)
-        for owner in around.keys() - {carrier}:
-            if frozenset((body[shoe.name], owner)) in tied or not _lie_on_each_other(known, carrier, owner, axis):
+        for owner, beside in around.items():
+            if owner == carrier or frozenset((body[shoe.name], owner)) in tied:
                 continue
-            looking, back = facing(shoe, around[owner]), facing(shoe, around.get(carrier, ()))
+            if not _lie_on_each_other(known, carrier, owner, axis):
+                continue
+            looking, back = facing(shoe, beside), facing(shoe, around.get(carrier, ()))
             wall, room = wall_across(looking, axis), _room(looking, back, axis)
             if wall is None or room is None or room > MAX_PLAY * pair.other.radius:
                 continue
             normal, play = wall
-            result.append(_slide(known, shoe, around[owner][0], np.cross(normal, axis), play))
+            result.append(_slide(known, shoe, beside[0], np.cross(normal, axis), play))
             if frozenset(pair.parts) not in known.pinned:
                 result.append(_turn(known, pair, room))
             tied |= {frozenset((body[shoe.name], each)) for each in (owner, carrier)}

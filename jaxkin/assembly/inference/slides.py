@@ -29,15 +29,11 @@ def loose_slides(known: Known) -> list[Inference]:
     """Infer prismatic joints of parts that are between faces of another body, with play, and have no contact with
     it."""
     body, result = known.body, []
-    tied = {frozenset(body[part] for part in each) for each in (*known.touching, *known.by_hand)}
-    tied |= {frozenset(body[part] for part in each.parts) for each in known.found if each.joint}
+    tied = {*known.jointed, *(frozenset(body[part] for part in pair) for pair in known.touching)}
     for part in known.parts:
-        around: dict[str, list[Part]] = {}
-        for other in known.measured.beside(part):
-            around.setdefault(body[other.name], []).append(other)
-        for owner, others in around.items():
+        for owner, others in known.around(part, body).items():
             owners = frozenset((body[part.name], owner))
-            if len(owners) < 2 or owners in tied:
+            if owners in tied:
                 continue
             found = slide_between(part, others) or _dovetail(part, others)
             if found is not None:
@@ -61,9 +57,7 @@ def guided_on_faces(known: Known) -> list[Hinge]:
     body, result = known.body, []
     flat: dict[Pair, list[Vector]] = {}
     about = {frozenset(body[part] for part in each.parts) for each in known.axes}
-    others = about | {frozenset(body[part] for part in each.parts) for each in known.tapped}
-    others |= {frozenset(body[part] for part in each.parts) for each in known.found if each.joint}
-    others |= {frozenset(body[part] for part in pair) for pair in known.by_hand}
+    others = {*about, *known.jointed, *(frozenset(body[part] for part in each.parts) for each in known.tapped)}
     for contact in known.contacts:
         owners, surface = frozenset(body[part] for part in contact.parts), contact.surfaces[0]
         if isinstance(surface, Plane) and contact.contact_state.is_flat:
@@ -73,7 +67,7 @@ def guided_on_faces(known: Known) -> list[Hinge]:
     for owners, normals in flat.items():
         if len(owners) < 2 or owners in others or any(_are_across(normal, normals[0]) for normal in normals):
             continue
-        one, other = ([part for part in known.parts if body[part.name] == owner] for owner in owners)
+        one, other = ([part for part in known.parts if body[part.name] == owner] for owner in known.in_order(owners))
         walls = [
             (part, *wall)
             for first, second in ((one, other), (other, one))

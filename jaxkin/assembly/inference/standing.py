@@ -59,14 +59,14 @@ def butting_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
     return result
 
 
-def on_floors(known: Known) -> dict[str, set[str]]:
+def on_floors(known: Known) -> dict[str, list[str]]:
     """Map each part to the parts of which it has a bore in contact, and a plane face beside that: its floor."""
-    on: dict[str, set[str]] = {}
+    on: dict[str, dict[str, None]] = {}
     for contact in known.contacts:
         if contact.contact_state.is_flat and frozenset(contact.parts) in known.pinned:
             for part, other in (contact.parts, contact.parts[::-1]):
-                on.setdefault(part, set()).add(other)
-    return on
+                on.setdefault(part, {})[other] = None
+    return {part: [*others] for part, others in on.items()}
 
 
 def standing_rods(known: Known, fastening: Collection[str]) -> list[Inference]:

@@ -19,7 +19,7 @@ def self_holding_tapers(known: Known) -> list[Inference]:
     result = []
     for contact in known.contacts:
         cones = [surface for surface in contact.surfaces if isinstance(surface, Cone)]
-        if len(cones) == 2 and contact.contact_state.letter == "k" and cones[0].half_angle <= MAX_HALF_ANGLE:
+        if contact.contact_state.is_fit and len(cones) == 2 and cones[0].half_angle <= MAX_HALF_ANGLE:
             angle = cones[0].half_angle
             one, other = contact.parts
             text = f"{one!r} and {other!r} fit with a taper of {np.rad2deg(angle):.2g} degrees beside its axis, which "

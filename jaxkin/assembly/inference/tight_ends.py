@@ -55,14 +55,18 @@ def _is_pressed(known: Known, pair: CommonAxis) -> bool:
 
 def _is_pressed_nowhere_else(known: Known, pair: CommonAxis) -> bool:
     """Tell whether a pin has no interference in the holes of third bodies on the same axis."""
+    return all(each.clearance > -MIN_PRESS * each.other.radius for each in _elsewhere(known, pair))
+
+
+def _elsewhere(known: Known, pair: CommonAxis) -> list[CommonAxis]:
+    """Find the holes of third bodies that a pin is in, on the same axis."""
     body = known.body
-    on = [
+    return [
         each
         for each in known.axes
         if each.one.part == pair.one.part and not each.virtual and each.one.on_axis_of(pair.one)
         if body[each.other.part] not in {body[part] for part in pair.parts}
     ]
-    return all(each.clearance > -MIN_PRESS * each.other.radius for each in on)
 
 
 def riveted_studs(known: Known, fastening: Collection[str]) -> list[Inference]:
@@ -145,21 +149,14 @@ def _grips(known: Known, end: CommonAxis, through: CommonAxis) -> bool:
 def _is_tight_end(known: Known, pair: CommonAxis) -> bool:
     """Tell whether a pin fits a hole exactly, and another part has play on the same axis of the pin."""
     fit, body = SAME_FIT * pair.other.radius, known.body
-    if pair.virtual or abs(pair.clearance) > fit:
+    if pair.virtual or abs(pair.clearance) > fit or body[pair.one.part] == body[pair.other.part]:
         return False
-    owners = {body[part] for part in pair.parts}
-    return len(owners) == 2 and any(
-        each.one.part == pair.one.part
-        and not each.virtual
-        and each.clearance > fit
-        and body[each.other.part] not in owners
-        and each.one.on_axis_of(pair.one)
-        for each in known.axes
-    )
+    return any(each.clearance > fit for each in _elsewhere(known, pair))
 
 
 def _held(known: Known, pair: CommonAxis, text: str) -> Inference:
     sizes = (("radius", pair.one.radius), ("clearance", pair.clearance))
-    text = f"{text}: what has play on that pin turns"
+    if any(each.clearance > 0 for each in _elsewhere(known, pair)):
+        text += ": what has play on that pin turns"
     parts = known.in_order(pair.parts)
     return Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text))

@@ -70,17 +70,16 @@ def screwed_flat(known: Known) -> list[Inference]:
     for contact in known.contacts:
         between.setdefault(frozenset(body[part] for part in contact.parts), []).append(contact)
     used = {id(bore) for pair in (*known.axes, *known.tapped) for bore in (pair.one, pair.other)}
-    jointed = {frozenset(body[part] for part in each.parts) for each in known.found if each.joint}
     result = []
     for owners, contacts in between.items():
         planes = [each.surfaces[0] for each in contacts]
         flat = all(each.contact_state.is_flat for each in contacts) and all(isinstance(p, Plane) for p in planes)
-        if len(owners) < 2 or owners in jointed or not flat:
+        if len(owners) < 2 or owners in known.jointed or not flat:
             continue
         normals = [plane.normal for plane in planes if isinstance(plane, Plane)]
         if any(np.linalg.norm(np.cross(normal, normals[0])) > ACROSS for normal in normals):
             continue
-        for part, other in {pair for each in contacts for pair in (each.parts, each.parts[::-1])}:
+        for part, other in dict.fromkeys(pair for each in contacts for pair in (each.parts, each.parts[::-1])):
             holes = [bore for bore in known.bores[part] if bore.hole and id(bore) not in used]
             ends = _covered(known, holes, other, normals[0])
             if len(ends) > 1:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import jaxkin as jk
+from jaxkin.geometry.part import moved
 from jaxkin.joints.evidence import EvidenceKind
 from reference.round_parts import assembly, block, part, pin, ring
 
@@ -31,7 +32,7 @@ def test_a_pin_with_play_or_interference_is_a_pin(radius, clearance):
     joint = joint_of(mechanism, "base", "lever")
     assert joint.kind == "cylindrical" and joint.evidence.kind == EvidenceKind.CLEARANCE
     assert dict(joint.evidence.sizes)["clearance"] == pytest.approx(clearance)
-    np.testing.assert_allclose(np.abs(joint.frames_1[0, :3, 2]), [0, 0, 1], atol=1e-12)
+    np.testing.assert_allclose(joint.frames_1[0, :3, 2], [0, 0, 1], atol=1e-12)
     fit = f"has {'a clearance' if clearance > 0 else 'an interference'} of {abs(clearance):.2g} "
     assert any(fit in note and "base-lever" in note for note in mechanism.notes)
     assert np.all(mechanism.sweep({f"{joint.name}.phi": np.linspace(0, 1, 5), f"{joint.name}.z": np.zeros(5)}).closed)
@@ -56,6 +57,16 @@ def test_a_post_that_is_far_too_thin_or_thick_is_no_pin(radius):
 def test_a_pin_that_fits_is_an_exact_contact_and_stays_one():
     mechanism = hinge_with(5.0).mechanism(fixed=["base"])
     assert joint_of(mechanism, "base", "lever").evidence.kind == EvidenceKind.CONTACT
+
+
+@pytest.mark.parametrize("radius", [4.5, 5.0, 5.3])
+def test_an_axis_points_forwards_however_its_faces_are_written(radius):
+    """By half a turn the axes of all faces point backwards; a joint of exact contacts does not, nor does another."""
+    drawn = hinge_with(radius)
+    upside_down = replace(drawn, parts=tuple(moved(each, np.diag([1.0, -1.0, -1.0, 1.0])) for each in drawn.parts))
+    for some in (drawn, upside_down):
+        joint = joint_of(some.mechanism(fixed=["base"]), "base", "lever")
+        np.testing.assert_allclose(joint.frames_1[0, :3, 2], [0, 0, 1], atol=1e-12)
 
 
 def test_faces_that_stop_the_slide_make_it_a_hinge():
@@ -135,17 +146,25 @@ def test_parts_are_left_out_and_named_by_patterns():
         drawn.mechanism(fixed=["base"], exclude=["bolt <9>"])
 
 
+ELSEWHERE = np.array([[0.0, 0.6, 0.8, 30.0], [0.0, 0.8, -0.6, -20.0], [-1.0, 0.0, 0.0, 7.0], [0.0, 0.0, 0.0, 1.0]])
+
+
 @pytest.mark.parametrize("order", [(0, 1, 2), (2, 1, 0), (1, 2, 0)])
-def test_neither_order_nor_names_nor_place_matter(order):
-    stud, base = part("stud", pin(5.0, -25, 10)), part("base", BASE)
-    lever = part("lever", ring(5.0, 12.0, -4, 4), block((11, -3, -4), (40, 3, 4)))
-    parts = [(base, stud, lever)[k] for k in order]
-    mechanism = assembly(*parts).mechanism(fixed=["base"])
-    assert {frozenset(body) for body in mechanism.bodies.values()} == {
-        frozenset(("base", "stud")),
-        frozenset(("lever",)),
-    }
+@pytest.mark.parametrize("names", [("base", "stud", "lever"), ("z", "m", "a")])
+@pytest.mark.parametrize("pose", [np.eye(4), ELSEWHERE], ids=["here", "elsewhere"])
+def test_neither_order_nor_names_nor_place_matter(order, names, pose):
+    lever = ring(5.0, 12.0, -4, 4), block((11, -3, -4), (40, 3, 4))
+    pieces = [BASE], [pin(4.5, -25, 10)], lever
+    parts = [moved(part(name, *own), pose) for name, own in zip(names, pieces, strict=True)]
+    mechanism = assembly(*(parts[k] for k in order)).mechanism(fixed=[names[0]])
+    assert {frozenset(body) for body in mechanism.bodies.values()} == {frozenset(names[:2]), frozenset(names[2:])}
     assert mechanism.mobility().freedoms == 2
+    joint = joint_of(mechanism, names[1], names[2])
+    assert joint.kind == "cylindrical" and joint.evidence.kind == EvidenceKind.CLEARANCE
+    way = np.sign(pose[2, 2] or pose[1, 2])  # forwards, wherever it is
+    np.testing.assert_allclose(joint.frames_1[0, :3, 2], way * pose[:3, 2], atol=1e-9)
+    offset = np.cross(joint.frames_1[0, :3, 3] - pose[:3, 3], pose[:3, 2])
+    np.testing.assert_allclose(offset, 0.0, atol=1e-9)
 
 
 def test_parts_are_named_by_the_subassemblies_that_they_are_in():
