@@ -66,7 +66,7 @@ class CouplerCurve:
     """The driven coordinate."""
     inputs: Float[np.ndarray, " poses"]
     points: Float[np.ndarray, "poses 3"]
-    """World coordinates, unit of the mechanism; NaN at poses that are not CLOSED."""
+    """World coordinates, unit of the mechanism; NaN at poses that are not closed (`motion.closed`)."""
     cusps: tuple[Cusp, ...]
     crossings: tuple[Crossing, ...]
     """Empty for curves that are not plane: these do not cross themselves but by chance."""

@@ -87,8 +87,8 @@ SEVERITY = (
     Status.STALLED,
     Status.NONFINITE,
 )
-"""All statuses from the best to the worst. A pose of a mechanism has the worst of the statuses that its structure
-elements have: a pose that is useless for one element is useless for the mechanism."""
+"""All statuses from the best to the worst. A pose of a mechanism has the worst of the statuses that its loop
+groups have: a pose that is useless for one of them is useless for the mechanism."""
 
 Scalar = Float[Array, ""] | Float[np.ndarray, ""]
 

@@ -51,7 +51,8 @@ from jaxkin.solve.status import is_closed_on_branch
 
 @dataclass(frozen=True, eq=False)
 class DriveForces:
-    """The force or torque of each driven coordinate in each pose. A pytree; NaN at poses that are not CLOSED.
+    """The force or torque of each driven coordinate in each pose. A pytree; NaN at poses that are not closed
+    (`motion.closed`).
 
     Positive along the coordinate: it acts on part 2 of the joint, and its opposite on part 1.
     """
@@ -137,8 +138,8 @@ def drive_forces(
     `jk.joint_friction`; other joints are without friction. Where friction locks the mechanism, forces are NaN.
     Freedoms without a drive move as the sweep moves them: the forces are right where nothing does work along them.
 
-    Works inside `jit`, `vmap` and `grad`. Poses that are not CLOSED are NaN. Raises ValueError where nothing acts, for
-    parts and coordinates that are not there, and for masses of another mechanism.
+    Works inside `jit`, `vmap` and `grad`. Poses that are not closed (`motion.closed`) are NaN. Raises ValueError where
+    nothing acts, for parts and coordinates that are not there, and for masses of another mechanism.
     """
     acting = Acting(masses, gravity, applied, rates, accelerations)
     check(motion, acting)

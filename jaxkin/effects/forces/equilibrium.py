@@ -60,7 +60,7 @@ class Equilibrium:
     inputs: Inputs
     """The range that was searched, rising."""
     forces: Float[np.ndarray, " poses"]
-    """Drive forces there, newton metres or newtons; NaN at poses that are not CLOSED."""
+    """Drive forces there, newton metres or newtons; NaN at poses that are not closed (`motion.closed`)."""
 
     def __str__(self) -> str:
         poses = f"{self.inputs[0]:.4g} to {self.inputs[-1]:.4g}"
