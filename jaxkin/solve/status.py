@@ -105,6 +105,11 @@ class ClosureTolerance(NamedTuple):
     """Residual norm at which correctors stop improving a pose."""
 
 
+CLOSED_ROUNDINGS = 64
+"""Largest residual norm, in units of rounding, of a pose that a correction has closed: poses above it are passed on to
+a method that costs more."""
+
+
 def default_tolerance(dtype) -> float:
     """Return the largest residual norm of a closed pose if the user asks for none: 1e-12, or 2e-6 in float32.
 

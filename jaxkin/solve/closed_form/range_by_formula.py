@@ -45,10 +45,9 @@ from jaxkin.solve.closed_form.planar_derivative import planar_slopes
 from jaxkin.solve.closed_form.solve_groups import Solved, residual_norm, solve_groups, solve_once
 from jaxkin.solve.closure.closure import scaled_geometry
 from jaxkin.solve.closure.joint_coordinates import ball_turns, joint_coordinates, unwrap_ball_angles
-from jaxkin.solve.correctors.newton import CLOSED_ROUNDINGS
 from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.range.poses import in_groups
-from jaxkin.solve.status import ClosureTolerance, Status, classify, is_closed, rounding_residual
+from jaxkin.solve.status import CLOSED_ROUNDINGS, ClosureTolerance, Status, classify, is_closed, rounding_residual
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State

@@ -24,7 +24,6 @@ from jaxkin.solve.continuation.fronts import ContinuationProblem
 from jaxkin.solve.continuation.input_path import curve_through
 from jaxkin.solve.continuation.step import reach
 from jaxkin.solve.correctors.chord_newton import CHORD_BATCH, chord_newton
-from jaxkin.solve.correctors.newton import CLOSED_ROUNDINGS
 from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.device import on_cpu
 from jaxkin.solve.lockstep import any_in_lockstep
@@ -35,7 +34,7 @@ from jaxkin.solve.range.polish import correct_poses
 from jaxkin.solve.range.poses import MAX_CORRECTION, Poses, group_size, in_groups
 from jaxkin.solve.range.straight_lines import try_straight_lines
 from jaxkin.solve.reference_methods.minimise import minimise_each
-from jaxkin.solve.status import ClosureTolerance, Status, classify, is_closed, rounding_residual
+from jaxkin.solve.status import CLOSED_ROUNDINGS, ClosureTolerance, Status, classify, is_closed, rounding_residual
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import assembled, difference, drive, driven
