@@ -46,7 +46,7 @@ from jaxkin.solve.closed_form.solve_groups import Solved, residual_norm, solve_g
 from jaxkin.solve.closure.closure import scaled_geometry
 from jaxkin.solve.closure.joint_coordinates import ball_turns, joint_coordinates, unwrap_ball_angles
 from jaxkin.solve.lockstep import any_in_lockstep
-from jaxkin.solve.range.poses import in_groups
+from jaxkin.solve.range.groups import in_groups
 from jaxkin.solve.status import CLOSED_ROUNDINGS, ClosureTolerance, Status, classify, is_closed, rounding_residual
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem

@@ -28,10 +28,11 @@ from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.device import on_cpu
 from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.options import CONTINUATION, SolverOptions
+from jaxkin.solve.range.groups import group_size, in_groups
 from jaxkin.solve.range.implicit_derivative import attach_derivative
 from jaxkin.solve.range.interpolation import SHARP_ROUNDINGS, interpolate
 from jaxkin.solve.range.polish import correct_poses
-from jaxkin.solve.range.poses import MAX_CORRECTION, Poses, group_size, in_groups
+from jaxkin.solve.range.poses import MAX_CORRECTION, Poses
 from jaxkin.solve.range.straight_lines import try_straight_lines
 from jaxkin.solve.reference_methods.minimise import minimise_each
 from jaxkin.solve.status import CLOSED_ROUNDINGS, ClosureTolerance, Status, classify, is_closed, rounding_residual
@@ -105,8 +106,8 @@ def displacements(
     """
     geometry, lengths = scaled_geometry(system, joints)
 
-    def read(group: tuple[Array, Poses]) -> Float[Array, "columns group"]:
-        inputs, poses = group
+    def read(some: tuple[Array, Poses]) -> Float[Array, "columns group"]:
+        inputs, poses = some
         state = attach_derivative(system, geometry, inputs, poses.state, is_closed(poses.status))
         turns = ball_turns(system, geometry, state)
         return joint_coordinates(system, joints.frames_1, joints.frames_2, state.x * lengths, turns)
