@@ -150,8 +150,8 @@ def is_closed_on_branch(status: Int[Array, " poses"]) -> Bool[Array, " poses"]:
     return (status == Status.CLOSED.value) | (status == Status.LIMITED.value)
 
 
-def is_closed(status: Int[Array, " poses"]) -> Bool[Array, " poses"]:
-    """Tell which poses have all loops closed, on whichever branch."""
+def closes_before_limits(status: Int[Array, " poses"]) -> Bool[Array, " poses"]:
+    """Tell which poses are CLOSED or JUMPED: for statuses of the solver, which has not looked at limits yet."""
     return (status == Status.CLOSED.value) | (status == Status.JUMPED.value)
 
 

@@ -47,7 +47,14 @@ from jaxkin.solve.closure.closure import scaled_geometry
 from jaxkin.solve.closure.joint_coordinates import ball_turns, joint_coordinates, unwrap_ball_angles
 from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.range.groups import in_groups
-from jaxkin.solve.status import CLOSED_ROUNDINGS, ClosureTolerance, Status, classify, is_closed, rounding_residual
+from jaxkin.solve.status import (
+    CLOSED_ROUNDINGS,
+    ClosureTolerance,
+    Status,
+    classify,
+    closes_before_limits,
+    rounding_residual,
+)
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State
@@ -185,7 +192,7 @@ def _with_derivative(
 def _derivative_of_formulas(system: LoopSystem, primals, tangents):
     axes, values, found = primals
     # loops of a pose in doubt close as well, and a search for a design is to get on from there
-    closed = is_closed(found.status) | (found.status == Status.STALLED.value)
+    closed = closes_before_limits(found.status) | (found.status == Status.STALLED.value)
     if system.planar:
         # what was found is a function of axes and inputs, too, for the next derivative
         rows = _with_derivative(system, *primals)

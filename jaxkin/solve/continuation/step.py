@@ -47,7 +47,7 @@ from jaxkin.solve.correctors.levenberg_marquardt import (
 from jaxkin.solve.correctors.newton import newton
 from jaxkin.solve.lockstep import any_in_lockstep, computed_once
 from jaxkin.solve.options import SolverOptions
-from jaxkin.solve.status import Status, classify, is_closed, rounding_residual
+from jaxkin.solve.status import Status, classify, closes_before_limits, rounding_residual
 from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, difference, drive, rate, retract
@@ -142,7 +142,7 @@ def substep(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, "
     # Such a target may be on this side of the limit: closed, its pose is CLOSED and not JUMPED.
     beside_limit = attempt.beyond & (fronts.status == Status.CLOSED.value) & (distance <= NEAR_LIMIT)
     status = classify(found.residual_norm, found.stationary, ~fronts.anchored | beside_limit)
-    closed = is_closed(status)
+    closed = closes_before_limits(status)
 
     ratio = determinant_ratio(fronts.jacobian, found.closure.jacobian, equation_blocks(system))
     # every field of the fronts depends on the decision: XLA would compute it anew for each

@@ -35,7 +35,14 @@ from jaxkin.solve.range.polish import correct_poses
 from jaxkin.solve.range.poses import MAX_CORRECTION, Poses
 from jaxkin.solve.range.straight_lines import try_straight_lines
 from jaxkin.solve.reference_methods.minimise import minimise_each
-from jaxkin.solve.status import CLOSED_ROUNDINGS, ClosureTolerance, Status, classify, is_closed, rounding_residual
+from jaxkin.solve.status import (
+    CLOSED_ROUNDINGS,
+    ClosureTolerance,
+    Status,
+    classify,
+    closes_before_limits,
+    rounding_residual,
+)
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import assembled, difference, drive, driven
@@ -78,7 +85,7 @@ def find_poses(
     asked = _Range(geometry, inputs / driven(system, lengths), tolerance, shard_count, shard_start, follow_limits)
     poses = _found(system, options, asked)
     # correctors take what rounding leaves for closed, whatever tolerance was asked for
-    rough = is_closed(poses.status) & (poses.residual_norm > tolerance.max_residual)
+    rough = closes_before_limits(poses.status) & (poses.residual_norm > tolerance.max_residual)
     return poses._replace(status=jnp.where(rough, Status.STALLED.value, poses.status).astype(jnp.int32))
 
 
@@ -108,7 +115,7 @@ def displacements(
 
     def read(some: tuple[Array, Poses]) -> Float[Array, "columns group"]:
         inputs, poses = some
-        state = attach_derivative(system, geometry, inputs, poses.state, is_closed(poses.status))
+        state = attach_derivative(system, geometry, inputs, poses.state, closes_before_limits(poses.status))
         turns = ball_turns(system, geometry, state)
         return joint_coordinates(system, joints.frames_1, joints.frames_2, state.x * lengths, turns)
 
