@@ -20,8 +20,8 @@ from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.mechanism.drive_plan import DrivenLoopGroup
 from jaxkin.mobility.host_closure import ClosedLoops, Row
 from jaxkin.solve.closed_form.assembled_axes import assembled_axes
+from jaxkin.solve.closed_form.formula_displacements import joint_displacements
 from jaxkin.solve.closed_form.group_formulas import GroupFormula, group_formulas
-from jaxkin.solve.closed_form.range_by_formula import joint_displacements
 from jaxkin.solve.closed_form.solve_groups import residual_norm, solve_groups
 from jaxkin.solve.closure.closure import scaled_geometry
 from jaxkin.solve.closure.joint_coordinates import ball_turns, joint_coordinates

@@ -21,12 +21,9 @@ from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import Given
 from jaxkin.mechanism.collect import Collected, DisplacementSources
 from jaxkin.solve.closed_form.assembled_axes import Axes
+from jaxkin.solve.closed_form.formula_displacements import joint_displacements
 from jaxkin.solve.closed_form.line import Line, PassedLine, passed_range
-from jaxkin.solve.closed_form.range_by_formula import (
-    find_poses_by_formula,
-    joint_displacements,
-    line_of,
-)
+from jaxkin.solve.closed_form.range_by_formula import find_poses_by_formula, line_of
 from jaxkin.solve.device import group_for_device
 from jaxkin.solve.execution.compiler import count_trace, jit_options
 from jaxkin.solve.status import ClosureTolerance, Status
