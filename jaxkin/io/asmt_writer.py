@@ -159,7 +159,9 @@ class _Writer:
         kind = JOINT_OF[JointKind.CYLINDRICAL if screw else joint.kind]
         self.joints.append(_Written(kind, joint.name, sides))
         if screw:
-            self.joints.append(_Written(SCREW, f"{joint.name} thread", sides, (("pitch", written(float(joint.pitch))),)))
+            self.joints.append(
+                _Written(SCREW, f"{joint.name} thread", sides, (("pitch", written(float(joint.pitch))),))
+            )
         columns = COORDINATES.get(joint.kind, ())
         self.motions += [(joint.name, columns[column]) for column in moved]
         self.limits += [(joint.name, *both) for both in zip(columns, joint.limits, strict=False)]
