@@ -56,7 +56,8 @@ LONGEST_STEP = 0.3
 """Longest step of the continuation, radians or characteristic lengths: a full turn takes twenty-one such steps."""
 SHORTEST_STEP = 1e-6
 """Shortest step, radians or characteristic lengths: if a step of this length is refused, the motion has a limit. There
-coordinates change as the square root of the distance from the limit, so they are followed to about 1e-3 of its pose."""
+coordinates change as the square root of the distance from the limit, so that following them stops about 1e-3 before the
+pose where the branch ends."""
 SHORTEST_FIRST_STEP = 1e-10
 """Shortest step from the assembled pose, in place of `SHORTEST_STEP`: that pose may lie as near to a limit as this."""
 BEYOND_LIMIT_STEP = 0.15
