@@ -1,7 +1,9 @@
-"""The import graph: what a reader may rely on when going down from a call to what it computes with."""
+"""Modules: how long they are, and what a reader may rely on when going down from a call to what it computes with."""
 
 import grimp
 import networkx as nx
+
+from documents import ROOT
 
 FACADE = {
     "jaxkin.mechanism.mechanism",
@@ -20,3 +22,9 @@ def test_there_is_no_circle_of_imports_but_the_facades():
     )
     circles = [set(circle) for circle in nx.strongly_connected_components(imports) if len(circle) > 1]
     assert all(circle <= FACADE for circle in circles), circles
+
+
+def test_a_file_holds_one_concept_in_at_most_300_lines():
+    files = [path for folder in ("jaxkin", "tests") for path in (ROOT / folder).rglob("*.py")]
+    lines = {path.relative_to(ROOT).as_posix(): path.read_text(encoding="utf-8").count("\n") for path in files}
+    assert len(lines) > 400 and {path for path, count in lines.items() if count > 300} == set()

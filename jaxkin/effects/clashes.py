@@ -47,7 +47,7 @@ class Clashes:
     clearances: Float[np.ndarray, "pairs poses"]
     """Least distance of the two parts, in the unit of the mechanism; less than 0 where they cut each other: then it is
     the depth, with a minus. Infinite where it is more than `within`, 0 where joined parts do not clash, NaN at poses
-    that are not CLOSED."""
+    that are not closed (`motion.closed`)."""
     within: float
     """Up to which clearance it was measured."""
     unit: str
@@ -55,7 +55,8 @@ class Clashes:
 
     @property
     def depths(self) -> Float[np.ndarray, "pairs poses"]:
-        """How deep parts are in each other: 0 where they do not clash, NaN at poses that are not CLOSED."""
+        """How deep parts are in each other: 0 where they do not clash, NaN at poses that are not closed
+        (`motion.closed`)."""
         return np.maximum(-self.clearances, 0.0)
 
     @property

@@ -41,7 +41,8 @@ class ContactValidity:
     contacts: tuple[Contact, ...]
     """The contacts that were checked."""
     gaps: Float[np.ndarray, "contacts poses"]
-    """How far the faces are apart, in the unit of the mechanism: 0 where they touch, NaN at poses that are not CLOSED.
+    """How far the faces are apart, in the unit of the mechanism: 0 where they touch, NaN at poses that are not closed
+    (`motion.closed`).
     """
     unit: str
     """Unit of the gaps."""

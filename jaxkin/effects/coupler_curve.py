@@ -33,6 +33,15 @@ MEETS = 1e-10
 that of the mechanism, for a curve of a hundredth of its size."""
 FLAT = 1e-9
 """Extent of a curve across its plane, over that along it, up to which it counts as plane."""
+ONE_INPUT = 1e-6
+"""Difference of two inputs, over the steps of the motion, up to which they are one: far more than refining leaves, and
+far less than two cusps or crossings that steps can tell apart."""
+ALONG_STEPS = 2.0
+"""Steps of the motion that a crossing may be refined away from where its polygons cross: curves beside their chords
+cross in the next step at most."""
+TOUCHES = 1e-12
+"""What the cosine between two tangents lacks of 1, up to which the curve touches itself, or passes a pose again, and
+does not cross: an angle of 1e-6, as exact as tangents at refined places are."""
 BLOCK = 512
 """Steps of the curve that are compared with all others at once: some megabytes of numbers."""
 
@@ -66,7 +75,7 @@ class CouplerCurve:
     """The driven coordinate."""
     inputs: Float[np.ndarray, " poses"]
     points: Float[np.ndarray, "poses 3"]
-    """World coordinates, unit of the mechanism; NaN at poses that are not CLOSED."""
+    """World coordinates, unit of the mechanism; NaN at poses that are not closed (`motion.closed`)."""
     cusps: tuple[Cusp, ...]
     crossings: tuple[Crossing, ...]
     """Empty for curves that are not plane: these do not cross themselves but by chance."""
@@ -79,8 +88,8 @@ class CouplerCurve:
         lines = [f"Curve of a point of {self.part} over {self.drive}, {len(self.inputs)} poses, {shape}"]
         for cusp in self.cusps:
             lines.append(f"  cusp at {cusp.input:.9g}: {_place(cusp.point)}")
-        for one, other in (each.inputs for each in self.crossings):
-            crossing = next(each for each in self.crossings if each.inputs == (one, other))
+        for crossing in self.crossings:
+            one, other = crossing.inputs
             lines.append(
                 f"  crossing at {one:.9g} and {other:.9g}: {_place(crossing.point)}, "
                 f"{np.degrees(crossing.angle):.4g} deg"
@@ -208,7 +217,7 @@ def _cusps(evaluate: Evaluate, inputs: np.ndarray) -> tuple[Cusp, ...]:
     still = found.closed & (np.linalg.norm(found.slope, axis=1) <= STANDS_STILL * np.sqrt(speed.max()))
     cusps: list[Cusp] = []
     for u, point in zip(at[still], found.point[still], strict=True):
-        if all(abs(u - other.input) > 1e-6 * step for other in cusps):
+        if all(abs(u - other.input) > ONE_INPUT * step for other in cusps):
             cusps.append(Cusp(float(u), point))
     return tuple(cusps)
 
@@ -238,21 +247,23 @@ def _crossings(
         area = np.where(area == 0, np.inf, area)
         du = (-apart[:, 0] * b[:, 1] + apart[:, 1] * b[:, 0]) / area
         dv = (a[:, 0] * apart[:, 1] - a[:, 1] * apart[:, 0]) / area
-        at = np.clip(at + np.stack([du, dv]), begun - 2 * step, begun + 2 * step)
+        at = np.clip(at + np.stack([du, dv]), begun - ALONG_STEPS * step, begun + ALONG_STEPS * step)
     here = evaluate(at.ravel())
     place, slope = (each.reshape(2, -1, 3) for each in (here.point, here.slope))
     good = here.closed.reshape(2, -1).all(axis=0)
     good &= np.linalg.norm(place[1] - place[0], axis=1) <= MEETS * extent
-    good &= np.abs(at[1] - at[0]) > 1e-6 * step
+    good &= np.abs(at[1] - at[0]) > ONE_INPUT * step
     # where the input makes a full turn, its ends are one pose
     lengths = np.linalg.norm(slope, axis=2)
     cosine = np.abs(np.sum(slope[0] * slope[1], axis=1)) / np.where(lengths.prod(axis=0) > 0, lengths.prod(axis=0), 1.0)
-    good &= cosine < 1 - 1e-12
+    good &= cosine < 1 - TOUCHES
     crossings: list[Crossing] = []
     for k in np.flatnonzero(good):
         u, v = sorted(map(float, at[:, k]))
-        at_cusp = any(abs(u - each.input) < 1e-6 * step or abs(v - each.input) < 1e-6 * step for each in cusps)
-        known = any(np.abs(np.subtract(each.inputs, (u, v))).max() < 1e-6 * step for each in crossings)
+        at_cusp = any(
+            abs(u - each.input) < ONE_INPUT * step or abs(v - each.input) < ONE_INPUT * step for each in cusps
+        )
+        known = any(np.abs(np.subtract(each.inputs, (u, v))).max() < ONE_INPUT * step for each in crossings)
         if not at_cusp and not known:
             crossings.append(Crossing((u, v), place[0, k], float(np.arccos(min(1.0, cosine[k])))))
     return tuple(crossings)

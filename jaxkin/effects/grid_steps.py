@@ -23,10 +23,9 @@ from jaxkin.solve.continuation.determinant_sign import determinant_ratio
 from jaxkin.solve.continuation.input_slopes import input_slopes
 from jaxkin.solve.continuation.step import MAX_DEVIATION, MAX_TRAVEL
 from jaxkin.solve.correctors.levenberg_marquardt import levenberg_marquardt
-from jaxkin.solve.correctors.newton import CLOSED_ROUNDINGS
 from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.options import SolverOptions
-from jaxkin.solve.status import rounding_residual
+from jaxkin.solve.status import CLOSED_ROUNDINGS, rounding_residual
 from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem

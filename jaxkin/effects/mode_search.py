@@ -20,16 +20,15 @@ from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.mechanism.drive_plan import DrivenLoopGroup
 from jaxkin.mobility.host_closure import ClosedLoops, Row
 from jaxkin.solve.closed_form.assembled_axes import assembled_axes
+from jaxkin.solve.closed_form.formula_displacements import joint_displacements
 from jaxkin.solve.closed_form.group_formulas import GroupFormula, group_formulas
-from jaxkin.solve.closed_form.range_by_formula import joint_displacements
 from jaxkin.solve.closed_form.solve_groups import residual_norm, solve_groups
 from jaxkin.solve.closure.closure import scaled_geometry
 from jaxkin.solve.closure.joint_coordinates import ball_turns, joint_coordinates
 from jaxkin.solve.correctors.levenberg_marquardt import levenberg_marquardt
-from jaxkin.solve.correctors.newton import CLOSED_ROUNDINGS
 from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.options import SolverOptions
-from jaxkin.solve.status import rounding_residual
+from jaxkin.solve.status import CLOSED_ROUNDINGS, rounding_residual
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, drive
@@ -192,7 +191,8 @@ def _has_formulas(system: LoopSystem) -> bool:
 def _by_formulas(
     loop_group: DrivenLoopGroup, inputs: Float[np.ndarray, " driven"]
 ) -> tuple[Float[np.ndarray, "poses columns"], Float[np.ndarray, " poses"], list[str]]:
-    """Solve the groups in order with all combinations of signs; a group of two slides has one pose and no sign."""
+    """Solve the groups in order with all combinations of signs; a group of two slides has one pose, whose sign is
+    written +."""
     found = [formula for formula in group_formulas(loop_group.system) if isinstance(formula, GroupFormula)]
     choices = list(product(*[(1.0,) if formula.letters.count("P") == 2 else (1.0, -1.0) for formula in found]))
     signs = jnp.asarray(choices, float).T

@@ -97,7 +97,7 @@ def singularities(workspace: Workspace) -> Singularities:
         if found.kind is not LimitKind.LOCKS:
             continue
         at = found.here.q * loops.units
-        given = np.split(rows[edge.node], first[1:-1])
+        given = np.split(rows[edge.node].copy(), first[1:-1])
         for (joint, k), value in zip(loops.columns, at, strict=True):
             given[joint][k] = value
         values.append(at[columns[:2]])

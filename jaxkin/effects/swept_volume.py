@@ -63,7 +63,7 @@ class SweptVolume:
     poses: int
     """Closed poses of the motion."""
     left_out: int
-    """Poses that are not CLOSED."""
+    """Poses that are not closed (`motion.closed`)."""
     placements: int
     """Places of the part, those between poses too; the cost grows with their number and the inverse cube of
     `resolution`."""

@@ -23,6 +23,7 @@ from jaxkin.io.asmt_ties import tie
 from jaxkin.io.marker_joints import COORDINATES, KINDS
 from jaxkin.io.marker_ties import SCREW
 from jaxkin.io.names import unique
+from jaxkin.io.numbers import written
 from jaxkin.io.robot_model import WORLD, along, placed
 from jaxkin.io.single_motions import BALL, HINGE, SLIDE, coordinate_names, single_motions
 from jaxkin.io.writable import check_writable
@@ -138,7 +139,7 @@ class _Writer:
                     f"without it, and what it ties, {listed(list(map(repr, coupling.coordinates)))}, moves on its own; "
                     "jk.write_mjcf and mechanism.save keep couplings"
                 )
-            sizes = tuple((key, _number(size)) for key, size in found.sizes)
+            sizes = tuple((key, written(size)) for key, size in found.sizes)
             self.joints.append(_Written(found.kind, coupling.name, found.sides, sizes))
 
     def _is_one(self, joint: Joint, moved: Sequence[int]) -> bool:
@@ -159,7 +160,7 @@ class _Writer:
         self.joints.append(_Written(kind, joint.name, sides))
         if screw:
             self.joints.append(
-                _Written(SCREW, f"{joint.name} thread", sides, (("pitch", _number(float(joint.pitch))),))
+                _Written(SCREW, f"{joint.name} thread", sides, (("pitch", written(float(joint.pitch))),))
             )
         columns = COORDINATES.get(joint.kind, ())
         self.motions += [(joint.name, columns[column]) for column in moved]
@@ -174,7 +175,8 @@ class _Writer:
             if motion.follows is not None:
                 raise ValueError(
                     f"ASMT cannot say the joint {joint.name!r} ({joint.kind}): its {motion.follows[0]!r} moves twice, "
-                    "and the format has no couplings; jk.write_mjcf and mechanism.save keep it"
+                    "and no coupling of the format ties two motions of one joint; jk.write_mjcf and mechanism.save "
+                    "keep it"
                 )
             if motion.kind == BALL and motion.name in driven:
                 raise ValueError(
@@ -225,8 +227,8 @@ class _Writer:
             moments, quaternion = principal_axes(own.inertia)
             place = placed(Rotation.from_quat(quaternion, scalar_first=True).as_matrix(), own.centre)
             mass = own.mass
-        said = _node(inner, "Name", "MassMarker") + _place(inner, place) + _node(inner, "Mass", _number(mass))
-        said += _node(inner, "MomentOfInertias", "\t".join(map(_number, moments))) + _node(inner, "Density", "1")
+        said = _node(inner, "Name", "MassMarker") + _place(inner, place) + _node(inner, "Mass", written(mass))
+        said += _node(inner, "MomentOfInertias", "\t".join(map(written, moments))) + _node(inner, "Density", "1")
         return "\t" * depth + "PrincipalMassMarker\n" + said
 
     def _path(self, part: str, marker: str) -> str:
@@ -248,7 +250,7 @@ class _Writer:
                 if np.isfinite(bound):
                     number += 1
                     result += f"\t\t\t{LIMIT_OF[key]}\n{_node(4, 'Name', f'Limit{number}')}"
-                    result += _node(4, "MotionJoint", path[joint]) + _node(4, "Limit", _number(bound))
+                    result += _node(4, "MotionJoint", path[joint]) + _node(4, "Limit", written(bound))
                     result += _node(4, "Type", kind) + _node(4, "Tol", "1e-09")
         return f"\t\tLimits\n{result}" if result else ""
 
@@ -259,7 +261,7 @@ def _node(depth: int, key: str, value: str) -> str:
 
 
 def _row(depth: int, numbers: Iterable[float]) -> str:
-    return "\t" * depth + "\t".join(map(_number, numbers)) + "\n"
+    return "\t" * depth + "\t".join(map(written, numbers)) + "\n"
 
 
 def _place(depth: int, pose: Pose) -> str:
@@ -280,8 +282,3 @@ def _markers(depth: int, markers: Sequence[tuple[str, Pose]]) -> str:
     )
     point = f"{tabs}\tRefPoint\n{_place(depth + 2, np.eye(4))}{tabs}\t\tMarkers\n{said}"
     return f"{tabs}RefPoints\n{point}{tabs}RefCurves\n{tabs}RefSurfaces\n"
-
-
-def _number(value: float) -> str:
-    """Write a number in full precision."""
-    return repr(float(value))

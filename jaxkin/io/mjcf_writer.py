@@ -20,6 +20,7 @@ from jaxkin._files import whole
 from jaxkin._names import listed
 from jaxkin.geometry.units import METRES
 from jaxkin.io.names import unique
+from jaxkin.io.numbers import written
 from jaxkin.io.robot_model import UNLIMITED, WORLD
 from jaxkin.io.single_motions import BALL, SLIDE, coordinate_names, coordinate_scale, single_motions
 from jaxkin.io.writable import check_writable
@@ -75,7 +76,7 @@ class _Writer:
         self.metres = METRES[mechanism.unit]
         self.root = Element("mujoco", model=model)
         SubElement(self.root, "compiler", angle="radian", autolimits="true", balanceinertia="true",
-                   boundmass=_text(LEAST_MASS), boundinertia=_text(LEAST_INERTIA))  # fmt: skip
+                   boundmass=written(LEAST_MASS), boundinertia=written(LEAST_INERTIA))  # fmt: skip
         self.assets = SubElement(self.root, "asset")
         world = SubElement(self.root, "worldbody")
         self.equality = Element("equality")
@@ -123,11 +124,11 @@ class _Writer:
         for each in single_motions(joint, self.joint_names[number], self.metres, sign):
             attributes = {"name": each.name, "type": each.kind}
             if each.kind != SLIDE:
-                attributes["pos"] = _text(*each.point)
+                attributes["pos"] = written(*each.point)
             if each.kind != BALL:
-                attributes["axis"] = _text(*each.axis)
+                attributes["axis"] = written(*each.axis)
             if np.isfinite(each.limits).any():
-                attributes["range"] = _text(*np.clip(each.limits, -UNLIMITED, UNLIMITED))
+                attributes["range"] = written(*np.clip(each.limits, -UNLIMITED, UNLIMITED))
             SubElement(body, "joint", attributes)
             if each.follows is not None:
                 leader, factor = each.follows
@@ -137,7 +138,7 @@ class _Writer:
         """Close a loop at a joint that the tree leaves out."""
         one, other = (self.body_names[part] for part in joint.parts)
         if joint.kind is JointKind.SPHERICAL:
-            anchor = _text(*np.asarray(joint.frames_1, float)[0, :3, 3] * self.metres)
+            anchor = written(*np.asarray(joint.frames_1, float)[0, :3, 3] * self.metres)
             SubElement(self.equality, "connect", name=joint.name, body1=one, body2=other, anchor=anchor)
             return
         if joint.freedoms:
@@ -146,15 +147,15 @@ class _Writer:
             one = end
         # with its pose, since MuJoCo takes the pose of the bodies where this is left out, but other readers zeros
         SubElement(self.equality, "weld", name=f"{joint.name} closed" if joint.freedoms else joint.name, body1=one,
-                   body2=other, relpose=_text(0, 0, 0, 1, 0, 0, 0))  # fmt: skip
+                   body2=other, relpose=written(0, 0, 0, 1, 0, 0, 0))  # fmt: skip
 
     def _inertial(self, part: str, given: Inertial) -> None:
         """Write what a part weighs into its body, whose axes are those of the world."""
         if self.body_names[part] == WORLD:
             return  # which has no mass in MuJoCo
         moments, turn = principal_axes(given.inertia)
-        inertial = Element("inertial", pos=_text(*given.centre), quat=_text(*turn), mass=_text(given.mass),
-                           diaginertia=_text(*moments))  # fmt: skip
+        inertial = Element("inertial", pos=written(*given.centre), quat=written(*turn), mass=written(given.mass),
+                           diaginertia=written(*moments))  # fmt: skip
         self.bodies[self.body_names[part]].insert(0, inertial)
 
     def _solid(self, solid: Part) -> None:
@@ -166,7 +167,7 @@ class _Writer:
         faces = faces.reshape(-1, 3)
         faces = faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)]
         # as a shell, since MuJoCo refuses solids whose surface is not closed, and measures the inertia of each
-        SubElement(self.assets, "mesh", name=solid.name, inertia="shell", vertex=_text(*points.ravel()),
+        SubElement(self.assets, "mesh", name=solid.name, inertia="shell", vertex=written(*points.ravel()),
                    face=" ".join(map(str, faces.ravel())))  # fmt: skip
         # joined parts touch each other by design: collisions of their meshes would push them apart
         SubElement(self.bodies[self.body_names[solid.name]], "geom", type="mesh", mesh=solid.name, contype="0",
@@ -174,8 +175,8 @@ class _Writer:
 
     def _polynomial(self, name: str, follower: str, leader: str, factors: Sequence[float], constant: float = 0) -> None:
         """Couple two joints: follower = constant + factors[0] leader + factors[1] leader^2 + ..."""
-        written = [constant, *factors, *[0.0] * LARGEST_POWER][: LARGEST_POWER + 1]
-        SubElement(self.equality, "joint", name=name, joint1=follower, joint2=leader, polycoef=_text(*written))
+        coefficients = [constant, *factors, *[0.0] * LARGEST_POWER][: LARGEST_POWER + 1]
+        SubElement(self.equality, "joint", name=name, joint1=follower, joint2=leader, polycoef=written(*coefficients))
 
     def _write_couplings(self) -> None:
         for coupling in self.mechanism.linkage.couplings:
@@ -199,8 +200,8 @@ class _Writer:
         elif len(linear) == len(names):
             tendon = SubElement(self.tendons, "fixed", name=coupling.name)
             for name, factor in zip(names, factors[:, 0], strict=True):
-                SubElement(tendon, "joint", joint=name, coef=_text(factor))
-            SubElement(self.equality, "tendon", name=coupling.name, tendon1=coupling.name, polycoef=_text(offset, 0))
+                SubElement(tendon, "joint", joint=name, coef=written(factor))
+            SubElement(self.equality, "tendon", name=coupling.name, tendon1=coupling.name, polycoef=written(offset, 0))
         else:
             raise ValueError(
                 f"MuJoCo cannot say the coupling {coupling.name!r}, {coupling}: it couples two joints by a polynomial "
@@ -214,8 +215,3 @@ class _Writer:
             joint, column = coordinate(self.mechanism.linkage, motor)
             SubElement(actuators, "motor", name=motor, joint=self.joint_names[joint][column])
         return actuators
-
-
-def _text(*numbers: float) -> str:
-    """Write numbers in full precision, with blanks between them."""
-    return " ".join(repr(float(number)) for number in numbers)

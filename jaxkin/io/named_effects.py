@@ -35,7 +35,10 @@ class Result(Protocol):
 
 
 def _rates(motion: Motion, **speeds: float | int) -> dict[str, Result]:
-    """Compute velocities and accelerations for constant `speeds` of the drive, degrees and lengths a unit of time."""
+    """Compute velocities and accelerations for constant `speeds` of the drive, degrees and lengths a unit of time.
+
+    Without speeds each drive moves by 1 radian, or 1 unit of length, per unit of time.
+    """
     given = _in_radians(motion, "rates", speeds) or dict.fromkeys(motion.inputs, 1.0)
     return {"velocities": velocities(motion, given), "accelerations": accelerations(motion, given)}
 

@@ -47,8 +47,8 @@ RELATIONS = ("gearbox",)
 SQUARE = 1e-6
 """Cosine between the axes of a universal joint up to which they are perpendicular: six digits."""
 
-MODEL = ("link", "joint", "model", "frame", "pose", "static", "self_collide", "allow_auto_disable", "enable_wind",
-         "plugin", "gripper")  # fmt: skip
+MODEL_TAGS = ("link", "joint", "model", "frame", "pose", "static", "self_collide", "allow_auto_disable", "enable_wind",
+              "plugin", "gripper")  # fmt: skip
 """Elements of a model that are read, or are not about motion."""
 
 WORLD_PARTS = ("model", "light", "gui", "scene", "physics", "plugin", "state", "gravity", "magnetic_field", "wind",
@@ -100,11 +100,12 @@ class _Reader:
             if name not in known:
                 self.notes.append(f"{self.file}: a controller is of {name!r}, which is no joint that moves; left out")
         motors = tuple(dict.fromkeys(name for name in self.motors if name in known))
-        joints = {each.name: each for each in self.joints}
-        couplings = [made for mimic in self.mimics if (made := self._mimic(*mimic, joints)) is not None]
+        by_name = {each.name: each for each in self.joints}
+        couplings = [made for mimic in self.mimics if (made := self._mimic(*mimic, by_name)) is not None]
         couplings += gearboxes(self.file, self.gearboxes, self.links, self.joints, fixed, self.notes)
-        notes, joints = tuple(self.notes), tuple(self.joints)
-        return RobotModel(tuple(links), joints, tuple(fixed), motors, notes, couplings=tuple(couplings))
+        return RobotModel(
+            tuple(links), tuple(self.joints), tuple(fixed), motors, tuple(self.notes), couplings=tuple(couplings)
+        )
 
     def _frames(self, model: Element) -> Frames:
         inner = {each.get("name", ""): self._frames(each) for each in model.iterfind("model")}
@@ -113,7 +114,7 @@ class _Reader:
     def _read(self, model: Element, frames: Frames, prefix: str, pose: Pose, static: bool) -> None:
         """Read the links and joints of a model at a pose in the world, and those of the models in it."""
         where = f"{self.file}: {tag(model)}"
-        self.notes += unknown_parts(model, MODEL, where)
+        self.notes += unknown_parts(model, MODEL_TAGS, where)
         static = static or (model.findtext("static") or "").strip() in ("true", "1")
         for each in model.iterfind("link"):
             name = each.get("name", "")

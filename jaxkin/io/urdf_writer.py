@@ -23,6 +23,7 @@ from jaxkin._files import check_folder, whole
 from jaxkin._names import listed
 from jaxkin.geometry.units import METRES
 from jaxkin.io.names import unique
+from jaxkin.io.numbers import written
 from jaxkin.io.robot_inertials import SIX
 from jaxkin.io.robot_loops import SPHERICAL
 from jaxkin.io.robot_model import UNLIMITED, WORLD
@@ -141,7 +142,7 @@ class _Writer:
         """Write a joint where the child link begins."""
         name = unique([*self.joints, name])[-1]
         joint = self.joints[name] = SubElement(self.root, "joint", name=name, type=kind)
-        SubElement(joint, "origin", xyz=_text(*self.begun[child] - self.begun[parent]), rpy="0 0 0")
+        SubElement(joint, "origin", xyz=written(*self.begun[child] - self.begun[parent]), rpy="0 0 0")
         SubElement(joint, "parent", link=parent)
         SubElement(joint, "child", link=child)
         return joint
@@ -165,11 +166,11 @@ class _Writer:
         limited = np.isfinite(motion.limits).any()
         kind = "prismatic" if motion.kind == SLIDE else "revolute" if limited else "continuous"
         joint = self._join(motion.name, kind, parent, child)
-        SubElement(joint, "axis", xyz=_text(*motion.axis))
+        SubElement(joint, "axis", xyz=written(*motion.axis))
         low, high = np.clip(motion.limits, -UNLIMITED, UNLIMITED)
         # a slide needs its ends, since readers take zero for an end that is not written
-        ends = {"lower": _text(low), "upper": _text(high)} if kind != "continuous" else {}
-        SubElement(joint, "limit", ends | {"effort": _text(UNLIMITED), "velocity": _text(UNLIMITED)})
+        ends = {"lower": written(low), "upper": written(high)} if kind != "continuous" else {}
+        SubElement(joint, "limit", ends | {"effort": written(UNLIMITED), "velocity": written(UNLIMITED)})
         if motion.follows is not None:
             leader, factor = motion.follows
             self._mimic(motion.name, leader, factor, 0.0)
@@ -177,7 +178,7 @@ class _Writer:
             self.balls.append(motion.name)
 
     def _mimic(self, follower: str, leader: str, factor: float, offset: float) -> None:
-        SubElement(self.joints[follower], "mimic", joint=leader, multiplier=_text(factor), offset=_text(offset))
+        SubElement(self.joints[follower], "mimic", joint=leader, multiplier=written(factor), offset=written(offset))
 
     def _close(self, number: int, joint: Joint) -> None:
         """Close a loop at a joint that the tree leaves out."""
@@ -205,10 +206,10 @@ class _Writer:
     def _inertial(self, part: str, given: Inertial) -> None:
         """Write what a part weighs into its link, whose axes are those of the world."""
         inertial = SubElement(self._element(part), "inertial")
-        SubElement(inertial, "origin", xyz=_text(*given.centre - self.begun[self.links[part]]), rpy="0 0 0")
-        SubElement(inertial, "mass", value=_text(given.mass))
+        SubElement(inertial, "origin", xyz=written(*given.centre - self.begun[self.links[part]]), rpy="0 0 0")
+        SubElement(inertial, "mass", value=written(given.mass))
         rows = {name: given.inertia["xyz".index(name[1]), "xyz".index(name[2])] for name in SIX}
-        SubElement(inertial, "inertia", {name: _text(value) for name, value in rows.items()})
+        SubElement(inertial, "inertia", {name: written(value) for name, value in rows.items()})
 
     def _solid(self, solid: Part) -> None:
         """Write the triangles of a part into a mesh of its own, and name it in its link."""
@@ -216,13 +217,13 @@ class _Writer:
             return
         corners = np.asarray(solid.triangles, float).reshape(-1, 3) * self.metres
         points, faces = np.unique(corners, axis=0, return_inverse=True)
-        lines = [f"v {_text(*point)}" for point in points]
+        lines = [f"v {written(*point)}" for point in points]
         lines += [f"f {' '.join(map(str, face))}" for face in faces.reshape(-1, 3) + 1]
         clean = NOT_IN_FILE_NAMES.sub("_", solid.name)
         file = unique([*(name.removesuffix(".obj") for name in self.meshes), clean])[-1].replace("#", "_") + ".obj"
         self.meshes[file] = "\n".join(lines) + "\n"
         visual = SubElement(self._element(solid.name), "visual")
-        SubElement(visual, "origin", xyz=_text(*-self.begun[self.links[solid.name]]), rpy="0 0 0")
+        SubElement(visual, "origin", xyz=written(*-self.begun[self.links[solid.name]]), rpy="0 0 0")
         SubElement(SubElement(visual, "geometry"), "mesh", filename=f"{self.folder}/{file}")
 
     def _coupling(self, coupling: Coupling) -> None:
@@ -284,8 +285,3 @@ def _quoted(name: str) -> str:
     if "'" in name and '"' in name:
         raise ValueError(f"the name {name!r} has quotes of both kinds, which a file of loops cannot hold; rename it")
     return f'"{name}"' if "'" in name else f"'{name}'"
-
-
-def _text(*numbers: float) -> str:
-    """Write numbers in full precision, with blanks between them."""
-    return " ".join(repr(float(number)) for number in numbers)

@@ -1,4 +1,4 @@
-"""Contract the graph of a structure element: parts whose displacements relative to each other are known count as one.
+"""Contract the graph of a loop group: parts whose displacements relative to each other are known count as one.
 
 Parts are nodes and joints are edges. A joint whose coordinates are all known is contracted: its two parts get the same
 representative. Circuits of what is left are the loops that are still to be solved.
@@ -17,7 +17,7 @@ Ends = Mapping[int, tuple[str, str]]
 
 
 class ContractedGraph:
-    """The graph of a structure element (parts are nodes, joints are edges) in which known joints are contracted."""
+    """The graph of a loop group (parts are nodes, joints are edges) in which known joints are contracted."""
 
     def __init__(self, ends: Ends) -> None:
         self.ends = ends

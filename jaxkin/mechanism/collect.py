@@ -12,7 +12,7 @@ from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.linkage.coordinates import Given
 from jaxkin.solve.execution.known_numbers import Outcome
-from jaxkin.solve.status import SEVERITY, Status, is_closed
+from jaxkin.solve.status import SEVERITY, Status, closes_before_limits
 from jaxkin.solve.system.from_linkage import Columns
 
 Solution = tuple[Float[Array, "_ _"], Outcome]
@@ -69,7 +69,7 @@ def collect(
     square = jnp.zeros(poses, dtype)
     for columns, (coordinates, found) in zip(layout.columns, solutions, strict=True):
         own_status = found.status[:poses]
-        follows = is_closed(own_status) | (own_status == Status.MISFIT.value)
+        follows = closes_before_limits(own_status) | (own_status == Status.MISFIT.value)
         for joint in dict.fromkeys(joint for joint, _ in columns):
             own = [(joint, k) for k in range(layout.freedoms[joint])]
             # inputs as they were given; the derivative of a pose that is not closed is zero in all its coordinates

@@ -21,12 +21,9 @@ from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import Given
 from jaxkin.mechanism.collect import Collected, DisplacementSources
 from jaxkin.solve.closed_form.assembled_axes import Axes
+from jaxkin.solve.closed_form.formula_displacements import joint_displacements
 from jaxkin.solve.closed_form.line import Line, PassedLine, passed_range
-from jaxkin.solve.closed_form.range_by_formula import (
-    find_poses_by_formula,
-    joint_displacements,
-    line_of,
-)
+from jaxkin.solve.closed_form.range_by_formula import find_poses_by_formula, line_of
 from jaxkin.solve.device import group_for_device
 from jaxkin.solve.execution.compiler import count_trace, jit_options
 from jaxkin.solve.status import ClosureTolerance, Status
@@ -101,7 +98,8 @@ class FormulaSweep:
         self.turns = [
             turn and _known_line(system, turn).on_device() for system, turn in zip(systems, turns, strict=True)
         ]
-        self.tolerances: dict[int, tuple[ClosureTolerance, ClosureTolerance]] = {}
+        self.asked: tuple[ClosureTolerance, ClosureTolerance] | None = None
+        """The tolerance that was asked for last, and the same on the device."""
         self.program, self.single = _program(systems, inputs), _single(layout, systems, inputs)
 
     def solve(
@@ -115,9 +113,10 @@ class FormulaSweep:
             return None
         rows = np.stack(values)
         lines = [self._line(number, rows[which]) for number, which in enumerate(self.inputs)]
-        if id(tolerance) not in self.tolerances:
-            self.tolerances[id(tolerance)] = tolerance, jax.device_put(tolerance)
-        _, on_device = self.tolerances[id(tolerance)]
+        asked = self.asked
+        if asked is None or asked[0] is not tolerance:
+            asked = self.asked = tolerance, jax.device_put(tolerance)
+        _, on_device = asked
         poses = rows.shape[1]
         if poses == 1:
             dealt, *proven = self.single(self.numbers, lines, rows, finite, on_device)

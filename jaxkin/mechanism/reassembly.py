@@ -139,7 +139,7 @@ def close(
 
 @dataclass(frozen=True, eq=False)
 class _ClosedGroup:
-    """What became of the loops of a structure element."""
+    """What became of the loops of a loop group."""
 
     loops: ClosedLoops
     q: Row

@@ -104,6 +104,7 @@ def _follow(mechanism: Mechanism, drive: Mapping[str, Any], options: SolverOptio
     loop_groups = plan.loop_groups if values[0].shape[0] else ()
     followed, finite = with_finite_inputs(values)
     known = known and all(isinstance(each, np.ndarray) for each in followed)
+    # by formulas for all loop groups in one program; where some have none, each loop group decides in `programs.solve`
     if loop_groups and plan.by_formula is not None and known and by_formulas(options, followed[0]):
         found = plan.by_formula.solve(followed, None if finite is None else np.asarray(finite), asked)
         if found is not None:

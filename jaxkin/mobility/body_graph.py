@@ -1,4 +1,4 @@
-"""Describe the bodies of a structure element and the twists that joints allow between them, at one pose (host code).
+"""Describe the bodies of a loop group and the twists that joints allow between them, at one pose (host code).
 
 Parts that are welded to each other are one body. Joints outside of the element count too: they connect its bodies to
 others. Twists are (w; v) in world coordinates about the centroid, lengths over the characteristic length.
@@ -24,7 +24,7 @@ Constraints = Float[np.ndarray, "constraints 6"]
 
 
 class BodyGraph:
-    """The bodies of a structure element, each named by its first row of parts, at the pose of `found.screws`.
+    """The bodies of a loop group, each named by its first row of parts, at the pose of `found.screws`.
 
     Parts in `left_out`, such as those that only spin, hold no other part and are held by none.
     """

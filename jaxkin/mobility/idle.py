@@ -80,7 +80,7 @@ class _Row:
 
 
 class IdleMotions:
-    """The idle motions of one structure element. Parts in `left_out` hold no other part and are not examined."""
+    """The idle motions of one loop group. Parts in `left_out` hold no other part and are not examined."""
 
     def __init__(self, linkage: Linkage, found: LoopFreedoms, left_out: Collection[str] = ()) -> None:
         self._linkage, self._found, self._left_out = linkage, found, set(left_out)

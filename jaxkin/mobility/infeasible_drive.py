@@ -168,7 +168,7 @@ def undriven_freedoms(linkage: Linkage, driven: Sequence[Coordinate]) -> tuple[s
 
 
 def _loops_of(found: LoopFreedoms) -> str:
-    """Name the loops of a structure element by its parts."""
+    """Name the loops of a loop group by its parts."""
     parts = dict.fromkeys(part for pair in found.ends.values() for part in pair)
     return f"the mechanism of {listed([part for part in parts if part != found.fixed])}"
 

@@ -19,7 +19,7 @@ class Opening:
     """The loop that is open the most."""
 
     residual: float
-    """Square root of Eq. 12 of all loops of its structure element, lengths over the characteristic length."""
+    """Square root of Eq. 12 of all loops of its loop group, lengths over the characteristic length."""
     parts: tuple[str, ...]
     """The parts of the loop, in order of travel."""
     joints: tuple[str, ...]

@@ -30,9 +30,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class LoopGroup:
-    """Loops that are solved as one system: those of one structure element, which have joints in common.
+    """Loops that are solved as one system.
 
-    Couplings between joints make one group of all loops that they tie, together with tied joints in no loop.
+    Without couplings they are those of one structure element, which have joints in common. Couplings between joints
+    make one group of all loops that they tie, together with tied joints in no loop.
     """
 
     joints: tuple[int, ...]

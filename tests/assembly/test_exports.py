@@ -13,7 +13,7 @@ from jaxkin import examples
 from jaxkin.geometry.units import METRES
 from jaxkin.joints.evidence import EvidenceKind
 from reference.archives import unpack
-from reference.exported import FRAME, X, Y, Z, instance, joint, load, mate
+from reference.exported import FRAME, Z, instance, joint, load, mate
 
 DATA = Path(__file__).with_name("data")
 
@@ -42,6 +42,12 @@ def aileron(tmp_path_factory):
     file.write_bytes(lzma.decompress((DATA / "aileron.xml.xz").read_bytes()))
     with pytest.warns(UserWarning, match=r"no solids for 'MountBrackets <1>.* and 172 more: drawn as small boxes"):
         return jk.load(file)
+
+
+@pytest.mark.parametrize("words", [{"combine": False}, {"clearance": 0.5}])
+def test_words_about_contacts_are_refused_where_the_export_says_the_joints(lift_table, words):
+    with pytest.raises(ValueError, match=rf"LiftTable.xml: {next(iter(words))}.* is about contacts, .*infer=False"):
+        lift_table.mechanism(**words)
 
 
 def test_all_joints_of_the_export_are_there_without_a_word(lift_table):
@@ -78,7 +84,6 @@ def test_the_solids_of_the_export_stand_where_its_step_file_has_them(lift_table_
         np.testing.assert_allclose(part.box, metres * other[part.name].box, atol=2e-8)  # nine digits, twice
 
 
-@pytest.mark.long
 @pytest.mark.long
 def test_parts_weigh_what_the_cad_system_says(lift_table_of_solids):
     """Centre and inertia are those of the solids, for one density a part; a chord of a circle loses a thousandth."""
@@ -175,84 +180,6 @@ def test_sides_of_a_joint_that_do_not_meet_are_told_with_their_distance(tmp_path
     mechanism = assembly.mechanism()
     assert any("0.0003" in note and "Revolute 'A'" in note for note in mechanism.notes)
     assert dict(mechanism.joints["A"].evidence.sizes)["offset"] == pytest.approx(0.0003)
-
-
-def test_joints_to_the_world_are_joints_to_what_is_held(tmp_path):
-    tree = instance("base", grounded="true") + instance("arm")
-    assert load(tmp_path, tree, joint("Revolute", "A", "", "arm", (0, 0, 0))).mechanism().mobility().freedoms == 1
-
-
-def arm_of_servos(**of_servo):
-    """A base, and on its hinge a servo of two parts that are fixed in it, with a horn on a hinge of the servo."""
-    servo = instance("case", grounded="true") + instance("screw", (0.01, 0, 0), grounded="true")
-    tree = instance("base") + instance("servo", (0.1, 0, 0), servo, of="A", **of_servo) + instance("horn")
-    axle = joint("Revolute", "horn", "servo", "horn", (0, 0, 0), (0.1, 0, 0))
-    return tree, joint("Revolute", "arm", "base", "servo/case", (0, 0, 0), (-0.1, 0, 0)) + axle
-
-
-def test_what_is_fixed_in_an_assembly_moves_with_it(tmp_path):
-    """Servos come with all of their parts fixed in them; a joint on the servo itself is one on these."""
-    tree, joints = arm_of_servos()
-    tree = tree.replace('uid="base"', 'uid="base" grounded="true"')
-    mechanism = load(tmp_path, tree, joints, assemblies='<Assembly uid="A"/>').mechanism()
-    assert mechanism.bodies == {"base": ("base",), "case": ("case", "screw"), "horn": ("horn",)}
-    assert mechanism.fixed == ("base",) and mechanism.mobility().freedoms == 2
-    assert mechanism.joints["horn"].parts == ("case", "horn")
-
-
-def test_what_is_fixed_in_the_only_frame_stands_still_where_nothing_else_does(tmp_path):
-    tree, joints = arm_of_servos()
-    mechanism = load(tmp_path, tree, joints, assemblies='<Assembly uid="A"/>').mechanism()
-    assert mechanism.fixed == ("case", "screw") and any("fixed in servo is taken" in note for note in mechanism.notes)
-
-
-def test_of_several_frames_none_is_chosen(tmp_path):
-    tree, joints = arm_of_servos()
-    second = instance("stand", inside=instance("foot", grounded="true"), of="A")
-    assembly = load(tmp_path, tree + second, joints, assemblies='<Assembly uid="A"/>')
-    with pytest.raises(ValueError, match="holds no part"):
-        assembly.mechanism()
-    assert any("only in servo, stand" in note for note in assembly.mechanism(fixed=["base"]).notes)
-
-
-WELD = joint("Weld", "origin", "", "base", (0, 0, 0))
-PLANES = [
-    mate("Coincident", f"plane {axis}", ("machine", "plane", (0, 0, 0), axis), ("base", "plane", (0, 0, 0), axis))
-    for axis in (X, Y, Z)
-]
-
-
-@pytest.mark.parametrize(("weld", "mates"), [(WELD, ""), ("", "".join(PLANES))])
-def test_a_part_that_is_held_by_the_assembly_itself_stands_still(tmp_path, weld, mates):
-    tree, joints = arm_of_servos()
-    mechanism = load(tmp_path, tree, joints + weld, mates, assemblies='<Assembly uid="A"/>').mechanism()
-    assert mechanism.fixed == ("base",) and mechanism.mobility().freedoms == 2
-
-
-def test_a_part_that_the_assembly_itself_does_not_hold_is_named(tmp_path):
-    assembly = load(
-        tmp_path, instance("base") + instance("arm"), joint("Revolute", "A", "base", "arm", (0, 0, 0)), PLANES[0]
-    )
-    said = assembly.mechanism(fixed=["base"]).notes
-    assert any("holds 'base' in the assembly itself, in which nothing is fixed; left out" in note for note in said)
-
-
-@pytest.mark.parametrize(("inner", "freedoms"), [("", 0), (joint("Revolute", "pin", "case", "screw", (0, 0, 0)), 1)])
-def test_in_an_assembly_that_is_fixed_joints_move_what_is_not(tmp_path, inner, freedoms):
-    """Without joints of its own all of it is fixed; of a hinge in it the side that is fixed is."""
-    inside = instance("case", **({"grounded": "true"} if inner else {})) + instance("screw")
-    tree = instance("stand", inside=inside, of="A", grounded="true") + instance("arm")
-    joints = joint("Revolute", "arm", "stand/case", "arm", (0, 0, 0))
-    assembly = load(tmp_path, tree, joints, assemblies=f'<Assembly uid="A"><Joints>{inner}</Joints></Assembly>')
-    assert assembly.mechanism().mobility().freedoms == 1 + freedoms
-
-
-def test_an_export_that_holds_no_part_asks_for_one(tmp_path):
-    assembly = load(tmp_path, instance("base") + instance("arm"), joint("Revolute", "A", "base", "arm", (0, 0, 0)))
-    with pytest.raises(ValueError, match=r"machine.xml: its CAD system holds no part; .*fixed=\['base'\]"):
-        assembly.mechanism()
-    assert assembly.mechanism(fixed=["base"]).mobility().freedoms == 1
-    assert assembly.proposals()[0].freedoms == 1
 
 
 def test_names_that_come_again_are_numbered(tmp_path):

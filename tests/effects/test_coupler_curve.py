@@ -56,7 +56,7 @@ def test_crossings_are_those_of_the_closed_form(motion):
     # brute force: pairs of far inputs at nearly one place, refined on the closed form
     apart = np.linalg.norm(curve[:, None] - curve[None], axis=2) + 1e3 * (np.abs(dense[:, None] - dense) < 0.3)
     apart += 1e3 * (np.abs(dense[:, None] - dense) > 2 * np.pi - 0.3)
-    expected = set()
+    expected: list[np.ndarray] = []
     for i, j in zip(*np.nonzero((apart < 1.0) & (dense[:, None] < dense)), strict=True):
         both, _, fine, _ = fsolve(
             lambda u: (np.diff(coupler_point(START + u, 50.0, -60.0), axis=0))[0],
@@ -65,8 +65,11 @@ def test_crossings_are_those_of_the_closed_form(motion):
             full_output=True,
         )
         if abs(both[0] - both[1]) > 0.1 and fine in (1, 4, 5):
-            expected.add(tuple(np.round(np.sort(both), 7)))
-    assert {tuple(np.round(each.inputs, 7)) for each in found.crossings} == expected
+            expected.append(np.sort(both))
+    expected = [own for k, own in enumerate(expected) if not any(np.allclose(own, other) for other in expected[:k])]
+    assert expected
+    # both are refined until rounding of the points, 1e-14, is left, over tangents of some 50 a radian
+    np.testing.assert_allclose(sorted(each.inputs for each in found.crossings), sorted(map(list, expected)), atol=1e-10)
     for each in found.crossings:
         both = coupler_point(START + np.array(each.inputs), 50.0, -60.0)
         np.testing.assert_allclose(both[0], both[1], atol=1e-9)
@@ -85,7 +88,7 @@ def test_a_circle_has_neither(motion):
 def test_it_prints_draws_and_saves(motion, tmp_path):
     found = jk.coupler_curve(motion, "coupler", (*coupler_point(START, 50.0, -60.0)[0], 0.0))
     assert str(found).startswith("Curve of a point of coupler over A.phi, 181 poses, plane")
-    assert str(found).count("crossing at") == len(found.crossings)
+    assert str(found).count("crossing at") == len(found.crossings) > 0
     assert found.plot(tmp_path / "curve.png").stat().st_size > 10_000
     table = np.genfromtxt(found.save(tmp_path / "curve.csv"), delimiter=",", names=True)
     np.testing.assert_allclose(table["x"], found.points[:, 0], rtol=1e-8)

@@ -5,7 +5,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from jaxkin.solve.closed_form.range_by_formula import LONG_RANGE
+from jaxkin.solve.closed_form.formula_displacements import LONG_RANGE
 from reference.mechanisms import planar_fourbar
 
 NON_GRASHOF = {"ground": 40.0, "crank": 20.0, "coupler": 25.0, "rocker": 30.0}

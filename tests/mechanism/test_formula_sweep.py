@@ -1,5 +1,8 @@
 """One program for ranges of any length, whose poses are those of the whole range; NumPy and JAX compute alike."""
 
+import gc
+import weakref
+
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -8,6 +11,7 @@ import pytest
 import jaxkin as jk
 from jaxkin.mechanism import formula_sweep
 from jaxkin.mechanism.drive_plan import plan_drive
+from jaxkin.mechanism.sweep import _known_tolerance, closure_tolerance
 from jaxkin.solve.closed_form.line import NODES, full_turn, passed_range
 from jaxkin.solve.closed_form.solve_groups import residual_norm, solve_groups
 from jaxkin.solve.execution.compiler import compilations
@@ -39,6 +43,19 @@ def test_two_programs_serve_any_number_of_poses():
     assert compilations() - before <= 2
     for found, expected in zip(alone.displacements, whole.displacements, strict=True):
         np.testing.assert_allclose(found, expected[-1:], atol=1e-13)  # another program: some roundings of two turns
+
+
+def test_tolerances_of_earlier_sweeps_are_let_go():
+    sweep, values = plan_drive(planar_fourbar(1.3).linkage, ("A",)).by_formula, (np.linspace(0.0, 1.0, 2),)
+    assert sweep is not None
+    asked = [closure_tolerance(10.0**-power) for power in (5, 6)]
+    earlier = weakref.ref(asked[0].max_residual)
+    for tolerance in asked:
+        assert sweep.solve(values, None, tolerance) is not None
+    _known_tolerance.cache_clear()
+    del asked[0], tolerance
+    gc.collect()
+    assert earlier() is None
 
 
 @pytest.mark.long

@@ -4,7 +4,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from jaxkin.solve.status import SEVERITY, Status, classify, default_tolerance, is_closed, rounding_residual
+from jaxkin.solve.status import SEVERITY, Status, classify, closes_before_limits, default_tolerance, rounding_residual
 
 NAN, INF = float("nan"), float("inf")
 
@@ -46,5 +46,5 @@ def test_units_of_rounding_stay_below_the_tolerance():
 def test_every_status_has_a_place_and_a_remedy():
     assert sorted(SEVERITY) == sorted(Status) and SEVERITY[0] == Status.CLOSED
     assert all(each.message for each in Status)
-    closed = is_closed(jnp.array([each.value for each in Status]))
+    closed = closes_before_limits(jnp.array([each.value for each in Status]))
     assert {each for each, yes in zip(Status, closed, strict=True) if yes} == {Status.CLOSED, Status.JUMPED}

@@ -36,7 +36,7 @@ from jaxkin.joints.joint import Joint
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.solve.linear.least_norm import factor_positive_definite
-from jaxkin.solve.range.poses import in_groups
+from jaxkin.solve.range.groups import in_groups
 
 PENALTY = 0.1
 """Penalty of the equations over the norm, in one over square roots of rounding: 6.7e6 in float64. More would leave

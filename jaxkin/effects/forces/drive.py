@@ -21,7 +21,7 @@ from jaxkin.effects.forces.friction_result import Friction
 from jaxkin.effects.forces.given import Applied
 from jaxkin.effects.forces.masses import Masses
 from jaxkin.effects.forces.pose_groups import by_groups
-from jaxkin.effects.forces.potential import Borne, borne_by, potential
+from jaxkin.effects.forces.potential import CarriedWeights, potential, weights_along_tree
 from jaxkin.effects.forces.screws import driven_by
 from jaxkin.effects.forces.wrenches import (
     STANDARD_GRAVITY,
@@ -51,7 +51,8 @@ from jaxkin.solve.status import is_closed_on_branch
 
 @dataclass(frozen=True, eq=False)
 class DriveForces:
-    """The force or torque of each driven coordinate in each pose. A pytree; NaN at poses that are not CLOSED.
+    """The force or torque of each driven coordinate in each pose. A pytree; NaN at poses that are not closed
+    (`motion.closed`).
 
     Positive along the coordinate: it acts on part 2 of the joint, and its opposite on part 1.
     """
@@ -137,8 +138,8 @@ def drive_forces(
     `jk.joint_friction`; other joints are without friction. Where friction locks the mechanism, forces are NaN.
     Freedoms without a drive move as the sweep moves them: the forces are right where nothing does work along them.
 
-    Works inside `jit`, `vmap` and `grad`. Poses that are not CLOSED are NaN. Raises ValueError where nothing acts, for
-    parts and coordinates that are not there, and for masses of another mechanism.
+    Works inside `jit`, `vmap` and `grad`. Poses that are not closed (`motion.closed`) are NaN. Raises ValueError where
+    nothing acts, for parts and coordinates that are not there, and for masses of another mechanism.
     """
     acting = Acting(masses, gravity, applied, rates, accelerations)
     check(motion, acting)
@@ -147,9 +148,9 @@ def drive_forces(
     speeds = given_rates(motion, acting)
     unit, linkage, acts = mechanism.unit, mechanism.linkage, weights(acting)
     if speeds is None:  # without friction, which `check` refuses at rest
-        bears = None if acts.masses is None else borne_by(linkage, acts.masses)
+        of_parts = None if acts.masses is None else weights_along_tree(linkage, acts.masses)
         others = acts._replace(masses=None)
-        return DriveForces(motion, *_at_rest(drive, unit, linkage, known, motion.inputs, others, bears))
+        return DriveForces(motion, *_at_rest(drive, unit, linkage, known, motion.inputs, others, of_parts))
     found = changes(drive, known, motion.inputs, speeds)
     frictions = loads_and_frictions(acting)[1]
     if not frictions:
@@ -170,14 +171,14 @@ def _at_rest(
     known: KnownMotion,
     inputs: Inputs,
     acting: Weights,
-    weights: Borne | None,
+    of_parts: CarriedWeights | None,
 ) -> tuple[Inputs, Inputs]:
     """Compute force and power of each driven coordinate at rest, in one program, by groups of poses.
 
-    The force of the `weights` is the derivative of their potential energy; what else acts, without masses, is placed in
-    each pose. Derivatives
-    by the drive stay in the cache: 10,000 poses of a four-bar take 1.1 ms of a processor by groups, and 1.6 at once.
-    In motion one program takes longer than three, by groups as well: 5.7 ms and 4.5.
+    The force of the weights `of_parts` is the derivative of their potential energy; what else acts, without masses, is
+    placed in each pose. Derivatives by the drive stay in the cache: 10,000 poses of a four-bar take 1.1 ms of a
+    processor by groups, and 1.6 at once. In motion one program takes longer than three, by groups as well: 5.7 ms and
+    4.5.
     """
 
     def of_group(given: tuple[Rows, Int[Array, " poses"], Inputs], acting: Weights) -> Inputs:
@@ -189,8 +190,8 @@ def _at_rest(
         if acting.applied:
             moving, sums = acting_on(unit, False, linkage, found, acting)
             forces, _ = _forces(drive, unit, linkage, status, moving, sums, {}, found.along, None)
-        if weights is not None:
-            slopes = _slopes(partial(potential, linkage, weights, acting.gravity), found)
+        if of_parts is not None:
+            slopes = _slopes(partial(potential, linkage, of_parts, acting.gravity), found)
             for name, joint, index in drive.driven:
                 metre = METRES[unit] / metres_of(linkage.joints[joint].coordinates[index], unit)
                 forces[name] = forces[name] + metre * slopes[name]

@@ -17,7 +17,8 @@ from jaxkin.mechanism.motion import Motion
 
 @dataclass(frozen=True, eq=False)
 class Friction:
-    """The friction of joints in each pose, by joint. A pytree; NaN at poses that are not CLOSED, or lock."""
+    """The friction of joints in each pose, by joint. A pytree; NaN at poses that are not closed (`motion.closed`), or
+    lock."""
 
     motion: Motion
     normal: Mapping[str, Float[Array, " poses"]]

@@ -10,7 +10,7 @@ import jax.numpy as jnp
 
 from jaxkin.effects.forces.given import rows_per_pose
 from jaxkin.effects.forces.wrenches import Weights
-from jaxkin.solve.range.poses import in_groups
+from jaxkin.solve.range.groups import in_groups
 
 GROUP = 512
 """Poses of a group. Reactions in 10,000 poses of a four-bar, without the derivatives of the motion, took 14 ms of a

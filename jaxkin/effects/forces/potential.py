@@ -5,9 +5,9 @@ the displacement (R, t) of the part, which passes through the joints of the tree
 each joint multiplies it by its own displacement from the right. Four numbers a part in place of twelve, and no twists:
 at rest the drive forces of weights are derivatives of this sum.
 
-The row stands in the frame behind a movement. The frame of the next one, and the weights that are borne there, are
-referred to it by constants of the mechanism (`borne`). What is left for each pose is one product with a constant a
-movement, and the movement.
+The row stands in the frame behind a movement. The frame of the next one, and the weights that are carried there, are
+referred to it by constants of the mechanism (`referred_weights`). What is left for each pose is one product with a
+constant a movement, and the movement.
 """
 
 from __future__ import annotations
@@ -54,8 +54,8 @@ class _Passage(NamedTuple):
     row_before: int
 
 
-class Borne(NamedTuple):
-    """Constants of the rows along the tree: where they stand, and which weights they bear."""
+class CarriedWeights(NamedTuple):
+    """Mass and first moment of all that a joint carries, for each row along the tree, and where the rows stand."""
 
     enters: Float[Array, "movements 4 4"]
     """The frame of the movement before a row, seen from behind the movement before that."""
@@ -65,25 +65,26 @@ class Borne(NamedTuple):
     """The same mass times its centre, seen from where the row stands."""
 
 
-def borne_by(linkage: Linkage, masses: Masses) -> Borne:
-    """Return `borne`, found once for a linkage and its masses as long as both live, unless their numbers are traced."""
+def weights_along_tree(linkage: Linkage, masses: Masses) -> CarriedWeights:
+    """Return `referred_weights`, found once for a linkage and its masses as long as both live, unless their numbers are
+    traced."""
     kept = _kept(masses)
     if linkage in kept:
         return kept[linkage]
-    found = _borne(linkage, masses)
+    found = _referred(linkage, masses)
     if not traced(found):
         kept[linkage] = found
     return found
 
 
 @once_for_each
-def _kept(masses: Masses) -> WeakKeyDictionary[Linkage, Borne]:
-    """Keep what weights bear, by the linkage."""
+def _kept(masses: Masses) -> WeakKeyDictionary[Linkage, CarriedWeights]:
+    """Keep the weights along the tree, by the linkage."""
     del masses
     return WeakKeyDictionary()
 
 
-def borne(linkage: Linkage, masses: Masses) -> Borne:
+def referred_weights(linkage: Linkage, masses: Masses) -> CarriedWeights:
     """Refer the weights of all parts to the movements that carry them.
 
     Origins are counted from the middle of the mechanism: far from the world's, digits would be lost.
@@ -114,14 +115,14 @@ def borne(linkage: Linkage, masses: Masses) -> Borne:
     row = np.array([0, *(each.row for each in passages)])[at]
     mass = jnp.zeros(moves.sum() + 1).at[row].add(masses.mass[own])
     moment = jnp.zeros((moves.sum() + 1, 3)).at[row].add(masses.mass[own, None] * centres)
-    return Borne(enters[moves], mass, moment)
+    return CarriedWeights(enters[moves], mass, moment)
 
 
-_borne = whole_program(borne, static=())
+_referred = whole_program(referred_weights, static=())
 
 
 def potential(
-    linkage: Linkage, weights: Borne, gravity: Any, displacements: Sequence[Float[Array, "poses _"]]
+    linkage: Linkage, weights: CarriedWeights, gravity: Any, displacements: Sequence[Float[Array, "poses _"]]
 ) -> Float[Array, " poses"]:
     """Compute the potential energy of all weights, in newtons times the unit of the mechanism; zero at the middle."""
     moving = [each for each in _passages(linkage)[0] if each.moves]

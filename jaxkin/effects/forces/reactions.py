@@ -59,7 +59,8 @@ HELD = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class Reactions:
-    """What each joint transmits from part 1 to part 2 in each pose. A pytree; NaN at poses that are not CLOSED.
+    """What each joint transmits from part 1 to part 2 in each pose. A pytree; NaN at poses that are not closed
+    (`motion.closed`).
 
     Along the freedoms of a joint it is what drives, joint springs and couplings transmit there, and what is `held`.
     """
@@ -165,7 +166,8 @@ def reactions(
     acts on it, and its inertia add up to zero. Where they leave reactions open, those of least norm are found, and
     `undetermined` names them; the norm takes torques about the points of the joints, over the size of the mechanism.
 
-    Works inside `jit`, `vmap` and `grad`. Poses that are not CLOSED are NaN. Raises ValueError as `jk.drive_forces`.
+    Works inside `jit`, `vmap` and `grad`. Poses that are not closed (`motion.closed`) are NaN. Raises ValueError as
+    `jk.drive_forces`.
     """
     acting = Acting(masses, gravity, applied, rates, accelerations)
     check(motion, acting)

@@ -25,7 +25,8 @@ from jaxkin.mechanism.motion import Motion
 
 @dataclass(frozen=True, eq=False)
 class Transmission:
-    """From the driven coordinate of a motion to an output, in each pose. A pytree; NaN at poses not CLOSED."""
+    """From the driven coordinate of a motion to an output, in each pose. A pytree; NaN at poses that are not closed
+    (`motion.closed`)."""
 
     input: str
     output: str

@@ -285,6 +285,6 @@ def units_of(motion: Motion, name: str) -> tuple[str, float]:
 
 
 def nan_unless_closed(motion: Motion, values: Array) -> Array:
-    """Set the rows of poses that are not CLOSED to NaN."""
+    """Set the rows of poses that are not closed (`motion.closed`) to NaN."""
     closed = motion.closed.reshape(len(motion), *[1] * (values.ndim - 1))
     return jnp.where(closed, values, jnp.nan)

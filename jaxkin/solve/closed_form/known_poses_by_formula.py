@@ -15,7 +15,7 @@ from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.solve.closed_form.assembled_axes import Axes
 from jaxkin.solve.closed_form.planar_derivative import planar_slopes
-from jaxkin.solve.status import is_closed
+from jaxkin.solve.status import closes_before_limits
 from jaxkin.solve.system.loop_system import LoopSystem
 
 
@@ -31,7 +31,7 @@ def known_displacements_by_formula(
     The system is planar, each of its groups has a formula, and no pose is singular. Shapes and units are those of
     `known_displacements`; a pose that is not closed has derivatives of zero.
     """
-    return _attached(system, axes, inputs, lax.stop_gradient(known), is_closed(status))
+    return _attached(system, axes, inputs, lax.stop_gradient(known), closes_before_limits(status))
 
 
 @partial(jax.custom_jvp, nondiff_argnums=(0,))

@@ -22,7 +22,7 @@ from jaxkin.solve.continuation.predictor import SMOOTH, hermite
 from jaxkin.solve.continuation.step import NEAR_LIMIT
 from jaxkin.solve.correctors.levenberg_marquardt import select_poses
 from jaxkin.solve.linear.blocks import is_costly
-from jaxkin.solve.status import Status, is_closed
+from jaxkin.solve.status import Status, closes_before_limits
 from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.scatter import scatter_rows
@@ -160,7 +160,7 @@ def _trusted_side(
     is JUMPED where it closes). If the neighbours differ, there is a limit between them: the motion was followed to the
     inner neighbour, which is nearer to the assembled pose, and the loops may close again at the outer one.
     """
-    left_closed, right_closed = is_closed(left.status), is_closed(right.status)
+    left_closed, right_closed = closes_before_limits(left.status), closes_before_limits(right.status)
     between = left_closed & (left.status == right.status)
     rising = values >= 0
     outer_closed = jnp.where(rising, right_closed, left_closed)

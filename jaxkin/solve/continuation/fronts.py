@@ -31,7 +31,7 @@ FOLLOWING = 1
 BEYOND_LIMIT = 2
 """Stage of a front in an unreachable interval."""
 RESTING = 3
-"""Stage of a front that takes no part in a step."""
+"""What stands in place of the stage of a front that takes no part in a step, while that is computed: never stored."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,7 +68,7 @@ class Fronts(NamedTuple):
     step: Float[Array, " fronts"]
     """Length of the next step."""
     stage: Int[Array, " fronts"]
-    """CLOSING, FOLLOWING or BEYOND_LIMIT."""
+    """CLOSING, FOLLOWING or BEYOND_LIMIT; which fronts are RESTING each step decides anew."""
     anchored: Bool[Array, " fronts"]
     """Whether the loops have been closed before: the first pose that closes is on the branch of the assembled pose."""
 

@@ -47,7 +47,7 @@ from jaxkin.solve.correctors.levenberg_marquardt import (
 from jaxkin.solve.correctors.newton import newton
 from jaxkin.solve.lockstep import any_in_lockstep, computed_once
 from jaxkin.solve.options import SolverOptions
-from jaxkin.solve.status import Status, classify, is_closed, rounding_residual
+from jaxkin.solve.status import Status, classify, closes_before_limits, rounding_residual
 from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, difference, drive, rate, retract
@@ -56,7 +56,8 @@ LONGEST_STEP = 0.3
 """Longest step of the continuation, radians or characteristic lengths: a full turn takes twenty-one such steps."""
 SHORTEST_STEP = 1e-6
 """Shortest step, radians or characteristic lengths: if a step of this length is refused, the motion has a limit. There
-coordinates change as the square root of the distance from the limit, so they are followed to about 1e-3 of its pose."""
+coordinates change as the square root of the distance from the limit, so that following them stops about 1e-3 before the
+pose where the branch ends."""
 SHORTEST_FIRST_STEP = 1e-10
 """Shortest step from the assembled pose, in place of `SHORTEST_STEP`: that pose may lie as near to a limit as this."""
 BEYOND_LIMIT_STEP = 0.15
@@ -142,7 +143,7 @@ def substep(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, "
     # Such a target may be on this side of the limit: closed, its pose is CLOSED and not JUMPED.
     beside_limit = attempt.beyond & (fronts.status == Status.CLOSED.value) & (distance <= NEAR_LIMIT)
     status = classify(found.residual_norm, found.stationary, ~fronts.anchored | beside_limit)
-    closed = is_closed(status)
+    closed = closes_before_limits(status)
 
     ratio = determinant_ratio(fronts.jacobian, found.closure.jacobian, equation_blocks(system))
     # every field of the fronts depends on the decision: XLA would compute it anew for each

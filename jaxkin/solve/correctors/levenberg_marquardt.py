@@ -18,7 +18,7 @@ from jaxkin.solve.closure.closure import Closure, closure, free_jacobian
 from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.linear.least_norm import solve_least_norm
 from jaxkin.solve.lockstep import any_in_lockstep
-from jaxkin.solve.status import Scalar
+from jaxkin.solve.status import CLOSED_ROUNDINGS, Scalar
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, retract
 
@@ -30,6 +30,21 @@ LEAST_MEAN_SQUARE = 1e-2
 """Mean square of the rows of J below which damping is no longer relative to it, but to this. Of loops of rods beyond a
 limit, J vanishes at the least residual, and steps with relative damping grow as its inverse: an RSSR linkage took all
 200 of its steps there, most of them refused, and takes twenty from the limit."""
+AFTER_GAIN = 0.3
+"""What the factor of the damping is multiplied by after a step that lowers the merit."""
+AFTER_REFUSAL = 8.0
+"""What it is multiplied by after a refused step: more than one gain takes back, or every other step would be refused.
+"""
+LEAST_FACTOR = 1e-2
+"""Least factor of the damping, which vanishes with the residual all the same: three refusals bring it to 1 again."""
+MOST_FACTOR = 1e12
+"""Largest factor of the damping: steps are shorter than rounding long before."""
+SMALL_FACTOR = 1.0
+"""Factor of the damping, with which iterations begin, up to which steps are not short because of it."""
+SHORTEST_STEP_ROUNDINGS = 4
+"""Length of a step in units of rounding, radians or characteristic lengths, below which angles of a turn lose it."""
+NOTHING_LEFT_ROUNDINGS = 8
+"""Residual norm in units of rounding below which nothing else is left of it, in loops of any length."""
 STATIONARY_COSINE = 1e-3
 """Cosine between residual and range of J below which a pose counts as stationary: see `_range_cosine`."""
 SETTLED_COSINE = 1e-5
@@ -52,7 +67,8 @@ class _Iterate(NamedTuple):
     count: Array
     state: State
     closure: Closure
-    trust: Float[Array, " poses"]
+    factor: Float[Array, " poses"]
+    """Factor of the damping."""
     done: Bool[Array, " poses"]
     trial: State
 
@@ -87,29 +103,32 @@ def levenberg_marquardt(
         better = (trial.merit < iterate.closure.merit) & ~iterate.done
         taken = better | first
         chosen_state, chosen = select_poses(taken, (iterate.trial, trial), (iterate.state, iterate.closure))
-        lower, higher = jnp.maximum(0.3 * iterate.trust, 1e-2), jnp.minimum(8 * iterate.trust, 1e12)
-        trust = jnp.where(first, iterate.trust, jnp.where(better, lower, higher))
+        lower = jnp.maximum(AFTER_GAIN * iterate.factor, LEAST_FACTOR)
+        higher = jnp.minimum(AFTER_REFUSAL * iterate.factor, MOST_FACTOR)
+        factor = jnp.where(first, iterate.factor, jnp.where(better, lower, higher))
         jacobian = free_jacobian(system, chosen)
         scale = jnp.maximum(1.0, LEAST_MEAN_SQUARE / (_mean_square(jacobian) + 1e-300))
-        damping = trust * scale * jnp.minimum(2 * chosen.merit, 1.0) + damping_floor(dtype)
+        damping = factor * scale * jnp.minimum(2 * chosen.merit, 1.0) + damping_floor(dtype)
         delta = -solve_least_norm(jacobian, chosen.residual, damping, system.used)
         length = jnp.sqrt(jnp.sum(delta * delta, axis=0))
         delta = delta * jnp.minimum(1.0, MAX_DAMPED_STEP / jnp.maximum(length, MAX_DAMPED_STEP))
-        # below 32 eps^2 of the merit only rounding is left, as it is in long loops where a step gains nothing
-        exhausted = ~taken & ((length < 4 * eps) | (chosen.merit < 0.5 * (64 * eps) ** 2))
+        # a refused step: shorter than rounding, or from a residual that counts as closed
+        closed = chosen.merit < 0.5 * (CLOSED_ROUNDINGS * eps) ** 2
+        exhausted = ~taken & ((length < SHORTEST_STEP_ROUNDINGS * eps) | closed)
         # the merit stagnates although the damping is small: the loops cannot close
-        least = better & (iterate.trust <= 1) & (trial.merit > (1 - STAGNANT_DECREASE) * iterate.closure.merit)
+        stagnates = trial.merit > (1 - STAGNANT_DECREASE) * iterate.closure.merit
+        least = better & (iterate.factor <= SMALL_FACTOR) & stagnates
         done = (
             iterate.done
             | (chosen.residual_norm <= target_residual)
-            | (chosen.merit < 32 * eps**2)
+            | (chosen.merit < 0.5 * (NOTHING_LEFT_ROUNDINGS * eps) ** 2)
             | exhausted
             | least
             | (_range_cosine(system, chosen, jacobian) < SETTLED_COSINE) & (chosen.residual_norm > OPEN_RESIDUAL)
             | ~jnp.isfinite(chosen.merit)
             | (iterate.count == max_steps)
         )
-        return _Iterate(iterate.count + 1, chosen_state, chosen, trust, done, retract(system, chosen_state, delta))
+        return _Iterate(iterate.count + 1, chosen_state, chosen, factor, done, retract(system, chosen_state, delta))
 
     poses = state.x.shape[-1]
     nothing = Closure(

@@ -196,11 +196,11 @@ def _nearest_jvp(system: LoopSystem, primals, tangents):
     state = _attach_derivative(system, geometry, begun, weights, found, settled)
     d_geometry, d_begun, d_weights, _, _ = tangents
 
-    def masked(jacobian: Array, weights: Array) -> Array:
+    def over_weights(jacobian: Array, weights: Array) -> Array:
         return jacobian / weights[:, None]
 
     evaluation = closure(system, geometry, found)
-    jacobian = masked(free_jacobian(system, evaluation), weights)
+    jacobian = over_weights(free_jacobian(system, evaluation), weights)
     floor = damping_floor(jacobian.dtype)
     off = _offset(system, begun, found, weights)
     # J^T lambda = e: lambda is the least-norm solution for the transposed system, (J J^T)^-1 J e
@@ -208,7 +208,7 @@ def _nearest_jvp(system: LoopSystem, primals, tangents):
 
     def parts(geometry: Geometry, begun: State, weights: Array, at: State):
         there = closure(system, geometry, at)
-        rows = masked(free_jacobian(system, there), weights)
+        rows = over_weights(free_jacobian(system, there), weights)
         return there.residual, _offset(system, begun, at, weights) - jnp.sum(rows * multipliers[:, None], axis=0)
 
     _, linear = jax.linearize(parts, geometry, begun, weights, found)

@@ -17,16 +17,13 @@ from jaxkin.solve.correctors.levenberg_marquardt import damping_floor, select_po
 from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.linear.blocks import is_costly, solve_blocks
 from jaxkin.solve.lockstep import any_in_lockstep
-from jaxkin.solve.status import Scalar, default_tolerance, rounding_residual
+from jaxkin.solve.status import CLOSED_ROUNDINGS, Scalar, default_tolerance, rounding_residual
 from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.state import State, retract
 
 MAX_QUADRATIC_RATIO = 1e-2
 """Ratio of two residual norms below which convergence counts as quadratic. At a limit of the motion, where the Jacobian
 is singular, convergence is linear and the ratio a quarter at best."""
-CLOSED_ROUNDINGS = 64
-"""Largest residual norm, in units of rounding, of a pose that a correction has closed: poses above it are passed on to
-a method that costs more."""
 
 
 class _Iterate(NamedTuple):

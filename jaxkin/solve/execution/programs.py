@@ -16,14 +16,13 @@ from jaxtyping import Array, Bool, Float
 
 from jaxkin._traced import inside_trace, traced
 from jaxkin.solve.closed_form.assembled_axes import Axes, assembled_axes
+from jaxkin.solve.closed_form.formula_displacements import displacements_by_formula, joint_displacements
 from jaxkin.solve.closed_form.group_formulas import why_not_all
 from jaxkin.solve.closed_form.line import Line
 from jaxkin.solve.closed_form.range_by_formula import (
     FormulaPoses,
-    displacements_by_formula,
     find_poses_and_line,
     find_poses_by_formula,
-    joint_displacements,
     line_of,
 )
 from jaxkin.solve.correctors.nearest_pose import NearestPoses, nearest_poses

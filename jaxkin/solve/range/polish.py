@@ -13,11 +13,18 @@ from jaxtyping import Array, Float
 from jaxkin.solve.continuation.branch_samples import BranchSamples, predict
 from jaxkin.solve.continuation.fronts import ContinuationProblem
 from jaxkin.solve.correctors.levenberg_marquardt import select_poses
-from jaxkin.solve.correctors.newton import CLOSED_ROUNDINGS, newton
+from jaxkin.solve.correctors.newton import newton
 from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.range.damped_poses import correct_damped
 from jaxkin.solve.range.poses import MAX_CORRECTION, Poses
-from jaxkin.solve.status import ClosureTolerance, Status, classify, is_closed, rounding_residual
+from jaxkin.solve.status import (
+    CLOSED_ROUNDINGS,
+    ClosureTolerance,
+    Status,
+    classify,
+    closes_before_limits,
+    rounding_residual,
+)
 from jaxkin.solve.system.state import State, difference, drive
 
 
@@ -37,7 +44,7 @@ def correct_poses(
     system = problem.system
     prediction = predict(system, samples, at)
     state = drive(system, prediction.state, inputs)
-    may_close = is_closed(prediction.status)
+    may_close = closes_before_limits(prediction.status)
 
     def by_newton() -> tuple[State, Array]:
         quick, _, residual_norm = newton(problem, state, tolerance.target_residual)

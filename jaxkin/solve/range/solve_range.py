@@ -24,18 +24,25 @@ from jaxkin.solve.continuation.fronts import ContinuationProblem
 from jaxkin.solve.continuation.input_path import curve_through
 from jaxkin.solve.continuation.step import reach
 from jaxkin.solve.correctors.chord_newton import CHORD_BATCH, chord_newton
-from jaxkin.solve.correctors.newton import CLOSED_ROUNDINGS
 from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.device import on_cpu
 from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.options import CONTINUATION, SolverOptions
+from jaxkin.solve.range.groups import group_size, in_groups
 from jaxkin.solve.range.implicit_derivative import attach_derivative
 from jaxkin.solve.range.interpolation import SHARP_ROUNDINGS, interpolate
 from jaxkin.solve.range.polish import correct_poses
-from jaxkin.solve.range.poses import MAX_CORRECTION, Poses, group_size, in_groups
+from jaxkin.solve.range.poses import MAX_CORRECTION, Poses
 from jaxkin.solve.range.straight_lines import try_straight_lines
 from jaxkin.solve.reference_methods.minimise import minimise_each
-from jaxkin.solve.status import ClosureTolerance, Status, classify, is_closed, rounding_residual
+from jaxkin.solve.status import (
+    CLOSED_ROUNDINGS,
+    ClosureTolerance,
+    Status,
+    classify,
+    closes_before_limits,
+    rounding_residual,
+)
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import assembled, difference, drive, driven
@@ -77,7 +84,9 @@ def find_poses(
     geometry, lengths = scaled_geometry(system, joints)
     asked = _Range(geometry, inputs / driven(system, lengths), tolerance, shard_count, shard_start, follow_limits)
     poses = _found(system, options, asked)
-    return poses._replace(status=poses.status.astype(jnp.int32))
+    # correctors take what rounding leaves for closed, whatever tolerance was asked for
+    rough = closes_before_limits(poses.status) & (poses.residual_norm > tolerance.max_residual)
+    return poses._replace(status=jnp.where(rough, Status.STALLED.value, poses.status).astype(jnp.int32))
 
 
 def shard(
@@ -104,9 +113,9 @@ def displacements(
     """
     geometry, lengths = scaled_geometry(system, joints)
 
-    def read(group: tuple[Array, Poses]) -> Float[Array, "columns group"]:
-        inputs, poses = group
-        state = attach_derivative(system, geometry, inputs, poses.state, is_closed(poses.status))
+    def read(some: tuple[Array, Poses]) -> Float[Array, "columns group"]:
+        inputs, poses = some
+        state = attach_derivative(system, geometry, inputs, poses.state, closes_before_limits(poses.status))
         turns = ball_turns(system, geometry, state)
         return joint_coordinates(system, joints.frames_1, joints.frames_2, state.x * lengths, turns)
 
