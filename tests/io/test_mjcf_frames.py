@@ -1,0 +1,47 @@
+"""Elements of MuJoCo's bodies inside of frames, and sites and welds between two points, where MuJoCo has them."""
+
+import numpy as np
+import pytest
+
+import jaxkin as jk
+
+IN_FRAMES = """<mujoco><default><default class="S"><joint type="slide" axis="1 0 0" range="-1 2"/></default></default>
+<worldbody><body name="a"><geom size="0.1"/>
+ <frame childclass="S" euler="0 0 90"><joint name="in class"/><frame pos="1 0 0"><joint name="deeper" axis="0 1 0"/>
+ </frame></frame></body>
+<replicate count="2" offset="1 0 0" childclass="S"><body name="b"><geom size="0.1"/><joint name="in copy"/></body>
+</replicate></worldbody></mujoco>"""
+
+
+def in_mujoco(text):
+    """Compile a model, and compute its poses at `qpos0`; skips where there is no MuJoCo."""
+    mujoco = pytest.importorskip("mujoco")
+    model = mujoco.MjModel.from_xml_string(text)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    return model, data
+
+
+def test_joints_have_the_class_of_the_frame_around_them(tmp_path):
+    model, data = in_mujoco(IN_FRAMES)
+    (tmp_path / "model.xml").write_text(IN_FRAMES)
+    joints = jk.load(tmp_path / "model.xml").mechanism().joints
+    assert len(joints) == model.njnt == 4
+    for number in range(model.njnt):
+        joint = joints[model.joint(number).name]
+        assert str(joint.kind) == "prismatic"
+        np.testing.assert_allclose(joint.frames_1[0][:3, 2], data.xaxis[number], atol=1e-15)  # rounding
+        np.testing.assert_allclose(joint.limits, [model.jnt_range[number]], atol=1e-15)
+
+
+@pytest.mark.parametrize("free", ["<freejoint/>", '<joint type="free"/>', '<joint class="f"/>'])
+def test_a_free_joint_in_a_frame_makes_its_body_float(tmp_path, free):
+    """Its seven numbers are in `qpos`, as those of one outside."""
+    text = f"""<mujoco><default><default class="f"><joint type="free"/></default></default><worldbody>
+    <body name="trunk"><frame pos="1 0 0">{free}</frame></body><body name="a"><joint name="j" range="30 90"/></body>
+    </worldbody><keyframe><key name="home" qpos="0 0 0 1 0 0 0 0.7"/></keyframe></mujoco>"""
+    (tmp_path / "model.xml").write_text(text)
+    mechanism = jk.load(tmp_path / "model.xml").mechanism()
+    assert "trunk" in mechanism.fixed and {*mechanism.joints} == {"j"}
+    assert any("<body name='trunk'>: it floats" in note for note in mechanism.notes)
+    np.testing.assert_allclose(mechanism.joints["j"].limits, [np.radians([30, 90]) - 0.7], atol=1e-15)  # rounding
