@@ -1,9 +1,12 @@
 """Elements of MuJoCo's bodies inside of frames, and sites and welds between two points, where MuJoCo has them."""
 
+from xml.etree import ElementTree
+
 import numpy as np
 import pytest
 
 import jaxkin as jk
+from jaxkin.io.mjcf import read_mjcf
 
 IN_FRAMES = """<mujoco><default><default class="S"><joint type="slide" axis="1 0 0" range="-1 2"/></default></default>
 <worldbody><body name="a"><geom size="0.1"/>
@@ -20,6 +23,13 @@ def in_mujoco(text):
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     return model, data
+
+
+def loop_of(folder, text, name):
+    """Read the joint of a constraint, before the loop that it closes is closed."""
+    return next(
+        each for each in read_mjcf(folder / "model.xml", ElementTree.fromstring(text)).joints if each.name == name
+    )
 
 
 def test_joints_have_the_class_of_the_frame_around_them(tmp_path):
@@ -45,3 +55,15 @@ def test_a_free_joint_in_a_frame_makes_its_body_float(tmp_path, free):
     assert "trunk" in mechanism.fixed and {*mechanism.joints} == {"j"}
     assert any("<body name='trunk'>: it floats" in note for note in mechanism.notes)
     np.testing.assert_allclose(mechanism.joints["j"].limits, [np.radians([30, 90]) - 0.7], atol=1e-15)  # rounding
+
+
+def test_a_site_between_two_points_is_where_it_is_for_mujoco(tmp_path):
+    text = """<mujoco><worldbody><body name="a" pos="1 0 0" euler="0 0 90"><joint name="j"/><geom size="0.1"/>
+    <site name="s" type="capsule" size="0.1" fromto="1 2 0 3 4 5"/></body><body name="b"><joint name="k"/>
+    <geom size="0.1"/><site name="t" type="capsule" size="0.1" fromto="0 0 1 0 2 2"/></body></worldbody>
+    <equality><weld name="w" site1="s" site2="t"/></equality></mujoco>"""
+    _, data = in_mujoco(text)
+    loop = loop_of(tmp_path, text, "w")
+    for number, frame in enumerate((loop.frame_1, loop.frame_2)):
+        np.testing.assert_allclose(frame[:3, 3], data.site_xpos[number], atol=1e-15)  # rounding
+        np.testing.assert_allclose(frame[:3, :3], data.site_xmat[number].reshape(3, 3), atol=1e-15)
