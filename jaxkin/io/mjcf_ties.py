@@ -130,7 +130,7 @@ class Ties:
             if kind is JointKind.SPHERICAL:
                 first = second = self.poses[one] @ placed(np.eye(3), anchor)
             else:
-                first = second = self.poses[other]
+                first = second = self.poses[other] @ placed(np.eye(3), anchor)
                 relative = numbers(said.get("relpose"), 7, where, (0, 1, 0, 0, 0, 0, 0))
                 if relative[3:].any():  # else the bodies hold each other as they are written
                     first = self.poses[one] @ placed(quaternion(relative[3:], where), relative[:3])

@@ -67,3 +67,39 @@ def test_a_site_between_two_points_is_where_it_is_for_mujoco(tmp_path):
     for number, frame in enumerate((loop.frame_1, loop.frame_2)):
         np.testing.assert_allclose(frame[:3, 3], data.site_xpos[number], atol=1e-15)  # rounding
         np.testing.assert_allclose(frame[:3, :3], data.site_xmat[number].reshape(3, 3), atol=1e-15)
+
+
+WELD = """<mujoco><compiler angle="radian"/><worldbody>
+<body name="x"><joint name="x" type="slide" axis="1 0 0"/><geom size=".1"/>
+ <body name="y"><joint name="y" type="slide" axis="0 1 0"/><geom size=".1"/>
+  <body name="a"><joint name="turn" axis="0 0 1"/><geom size=".1"/></body></body></body>
+<body name="b" pos="1 0.5 0"><joint name="lever" axis="0 0 1"/><geom size=".1"/></body></worldbody>
+<equality><weld body1="b" body2="a" {said}/></equality></mujoco>"""
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "",
+        'anchor="0 0.4 0"',
+        'relpose="0.3 0 0 1 0 0 0"',
+        'anchor="0 0.4 0" relpose="0.3 0 0 1 0 0 0"',
+        'anchor="0.1 0.4 0" relpose="0.3 0 0 1 0 0 0.2"',
+    ],
+)
+def test_a_weld_is_closed_where_mujoco_finds_it_closed(tmp_path, said):
+    """Of a weld with both, `relpose` places the point on body 1 that meets `anchor` on body 2."""
+    mujoco = pytest.importorskip("mujoco")
+
+    text = WELD.format(said=said)
+    model, data = in_mujoco(text)
+    (tmp_path / "model.xml").write_text(text)
+    assembly = jk.load(tmp_path / "model.xml")
+    motion = assembly.mechanism().sweep({"lever": [0.0, 0.2, -0.3]}, throw=True)
+    start = assembly.exported.joint_values
+    for pose in range(3):
+        for name, values in motion.coordinates.items():
+            if name in ("x", "y", "turn", "lever"):
+                data.joint(name).qpos = (start.get(name) or (0.0,))[0] + values[pose, 0]
+        mujoco.mj_forward(model, data)
+        np.testing.assert_allclose(data.efc_pos[:6], 0, atol=1e-12)  # the tolerance of sweeps
