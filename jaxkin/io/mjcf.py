@@ -105,7 +105,8 @@ class _Reader:
         loops = ties.loops({each.name for each in found.joints})
         motors = ties.motors(found.joints)
         couplings = ties.couplings({each.name: each for each in found.joints})
-        joints = (*found.joints, *loops)
+        held = {name: ((at, at),) for name, at in ties.held.items()}
+        joints = (*(replace(each, limits=held.get(each.name, each.limits)) for each in found.joints), *loops)
         left = [name for name in found.springs if name not in motors]
         if left:
             found.notes.append(

@@ -46,8 +46,9 @@ def write_mjcf(mechanism: Mechanism, path: str | os.PathLike[str], *, masses: Ma
     """Write a mechanism as a model of MuJoCo (.xml), in metres, and return its path.
 
     The file holds bodies, joints with their ranges, loops, couplings, motors as actuators, and the solids as meshes; it
-    appears whole or not at all. MuJoCo pulls loops together by springs, so the poses that it settles at agree with a
-    sweep to their softness. A coordinate of a joint that has several is a joint of its own there, "joint_phi".
+    appears whole or not at all. A locked joint, whose limits are equal, is held by an equality. MuJoCo pulls loops
+    together by springs, so the poses that it settles at agree with a sweep to their softness. A coordinate of a joint
+    that has several is a joint of its own there, "joint_phi".
 
     Bodies weigh what the file says that the mechanism was read from, or what `masses`, found by `jk.masses`, say. Of
     others MuJoCo computes the masses from their meshes, as shells.
@@ -126,7 +127,11 @@ class _Writer:
                 attributes["pos"] = _text(*each.point)
             if each.kind != BALL:
                 attributes["axis"] = _text(*each.axis)
-            if np.isfinite(each.limits).any():
+            low, high = each.limits
+            if low == high:  # which MuJoCo takes for no range
+                held = [low, *[0.0] * LARGEST_POWER]
+                SubElement(self.equality, "joint", name=f"{each.name} locked", joint1=each.name, polycoef=_text(*held))
+            elif np.isfinite(each.limits).any():
                 attributes["range"] = _text(*np.clip(each.limits, -UNLIMITED, UNLIMITED))
             SubElement(body, "joint", attributes)
             if each.follows is not None:
