@@ -280,10 +280,9 @@ def _warn_of_unknown_masses(mechanism: Mechanism, inertials: Mapping[str, Inerti
 
 
 def _quoted(name: str) -> str:
-    """Write a name in the quotes that it has none of."""
-    if "'" in name and '"' in name:
-        raise ValueError(f"the name {name!r} has quotes of both kinds, which a file of loops cannot hold; rename it")
-    return f'"{name}"' if "'" in name else f"'{name}'"
+    """Write a name in single quotes, which are doubled inside."""
+    doubled = name.replace("'", "''")
+    return f"'{doubled}'"
 
 
 def _text(*numbers: float) -> str:
