@@ -22,7 +22,7 @@ from jaxkin.geometry.units import METRES
 from jaxkin.io.names import unique
 from jaxkin.io.robot_model import UNLIMITED, WORLD
 from jaxkin.io.single_motions import BALL, SLIDE, coordinate_names, coordinate_scale, single_motions
-from jaxkin.io.writable import check_writable
+from jaxkin.io.writable import check_robot
 from jaxkin.io.written_masses import principal_axes, written_inertials
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Joint
@@ -71,7 +71,7 @@ class _Writer:
     """The elements of one model."""
 
     def __init__(self, mechanism: Mechanism, model: str, inertials: Mapping[str, Inertial]) -> None:
-        check_writable(mechanism.all_joints, "model")
+        check_robot(mechanism, "model")
         self.mechanism = mechanism
         self.metres = METRES[mechanism.unit]
         self.root = Element("mujoco", model=model)

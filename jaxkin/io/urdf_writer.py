@@ -27,7 +27,7 @@ from jaxkin.io.robot_inertials import SIX
 from jaxkin.io.robot_loops import SPHERICAL
 from jaxkin.io.robot_model import UNLIMITED, WORLD
 from jaxkin.io.single_motions import BALL, SLIDE, SingleMotion, coordinate_names, coordinate_scale, single_motions
-from jaxkin.io.writable import check_writable
+from jaxkin.io.writable import check_robot
 from jaxkin.io.written_masses import written_inertials
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Joint
@@ -87,7 +87,7 @@ class _Writer:
     """The elements of one robot, and the texts of the files beside it."""
 
     def __init__(self, mechanism: Mechanism, name: str, inertials: Mapping[str, Inertial]) -> None:
-        check_writable(mechanism.all_joints, "robot")
+        check_robot(mechanism, "robot")
         self.mechanism, self.metres = mechanism, METRES[mechanism.unit]
         self.folder = f"{name}_meshes"
         self.root = Element("robot", name=name)
