@@ -70,8 +70,8 @@ class Bodies:
     """Keyframes of attached models: by name, what they say of each of their joints."""
     sites: dict[str, tuple[str, Pose]] = field(default_factory=dict)
     """Bodies of the sites by name, and their places in the world."""
-    floating: list[str] = field(default_factory=list)
-    """Bodies that are held at rest, since they float or are moved from outside."""
+    held: list[str] = field(default_factory=list)
+    """Bodies that are held at rest, since they are moved from outside."""
     springs: list[str] = field(default_factory=list)
     """Names of joints with a spring."""
     notes: list[str] = field(default_factory=list)
@@ -115,7 +115,7 @@ class _Reader:
             )
         needed = {part for each in joints for part in each.parts}
         names = [name for name in found.poses if name != WORLD or WORLD in needed]
-        fixed = [*([WORLD] if WORLD in needed else []), *found.floating]
+        fixed = [*([WORLD] if WORLD in needed else []), *found.held]
         links = tuple(
             RobotLink(name, found.poses[name], tuple(found.shapes[name]), inertial=found.inertials.get(name))
             for name in names
@@ -167,11 +167,11 @@ class _Reader:
         free = any(
             each.tag == "freejoint" or self.defaults.said(each, of).get("type") == "free" for each, _, of in joints
         )
-        if free or element.get("mocap") == "true":
-            how = "floats" if free else "is moved from outside (mocap)"
-            found.notes.append(f"{where}: it {how}: held at rest; give fixed= to hold another part instead")
-            found.floating.append(name)
-            found.order += [""] if free else []
+        if free:
+            found.order.append("")
+        elif element.get("mocap") == "true":
+            found.notes.append(f"{where}: it is moved from outside (mocap): held at rest where fixed= names no parts")
+            found.held.append(name)
         else:
             self._chain(joints, parent, name, pose)
         self._inside(own, name)
