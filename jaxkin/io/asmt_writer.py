@@ -26,7 +26,7 @@ from jaxkin.io.names import unique
 from jaxkin.io.numbers import written
 from jaxkin.io.robot_model import WORLD, along, placed
 from jaxkin.io.single_motions import BALL, HINGE, SLIDE, coordinate_names, single_motions
-from jaxkin.io.writable import check_writable
+from jaxkin.io.writable import check_robot
 from jaxkin.io.written_masses import principal_axes, written_inertials
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
@@ -105,7 +105,7 @@ class _Writer:
     """What one file holds."""
 
     def __init__(self, mechanism: Mechanism, name: str, inertials: Mapping[str, Inertial]) -> None:
-        check_writable(mechanism.all_joints, "assembly")
+        check_robot(mechanism, "assembly")
         self.name = name
         metres = METRES[mechanism.unit]
         self.inertials = {

@@ -6,7 +6,7 @@ where that is beyond the ranges of joints it is the pose of a keyframe.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from xml.etree.ElementTree import Element
@@ -50,6 +50,10 @@ BODY = ("inertial", "joint", "freejoint", "geom", "site", "body", "frame", "came
 """Elements of a body that are read, or are not about motion."""
 
 
+Placed = tuple[Element, Pose, str | None]
+"""An element of a body, the place that it is given in, from there to the world in metres, and its class by default."""
+
+
 @dataclass
 class Bodies:
     """What the bodies of a model are: gathered on the way through them, at MuJoCo's `qpos0`."""
@@ -66,8 +70,8 @@ class Bodies:
     """Keyframes of attached models: by name, what they say of each of their joints."""
     sites: dict[str, tuple[str, Pose]] = field(default_factory=dict)
     """Bodies of the sites by name, and their places in the world."""
-    floating: list[str] = field(default_factory=list)
-    """Bodies that are held at rest, since they float or are moved from outside."""
+    held: list[str] = field(default_factory=list)
+    """Bodies that are held at rest, since they are moved from outside."""
     springs: list[str] = field(default_factory=list)
     """Names of joints with a spring."""
     notes: list[str] = field(default_factory=list)
@@ -94,14 +98,15 @@ class _Reader:
         """Go through the bodies, then what ties them together and what moves them."""
         found = self.found
         for world in self.root.iterfind("worldbody"):
-            self._inside(world, WORLD, np.eye(4), None)
+            self._inside([*self._own(world, np.eye(4), None)], WORLD)
         if len(found.poses) == 1:
             raise ValueError(f"{self.file}: there is no <body> in its <worldbody>")
         ties = Ties(self.file, self.root, self.compiler, self.defaults, found.poses, found.sites)
         loops = ties.loops({each.name for each in found.joints})
         motors = ties.motors(found.joints)
         couplings = ties.couplings({each.name: each for each in found.joints})
-        joints = (*found.joints, *loops)
+        held = {name: ((at, at),) for name, at in ties.held.items()}
+        joints = (*(replace(each, limits=held.get(each.name, each.limits)) for each in found.joints), *loops)
         left = [name for name in found.springs if name not in motors]
         if left:
             found.notes.append(
@@ -110,7 +115,7 @@ class _Reader:
             )
         needed = {part for each in joints for part in each.parts}
         names = [name for name in found.poses if name != WORLD or WORLD in needed]
-        fixed = [*([WORLD] if WORLD in needed else []), *found.floating]
+        fixed = [*([WORLD] if WORLD in needed else []), *found.held]
         links = tuple(
             RobotLink(name, found.poses[name], tuple(found.shapes[name]), inertial=found.inertials.get(name))
             for name in names
@@ -120,15 +125,22 @@ class _Reader:
         model, notes = at_keyframe(model, self.root, self.file, found.order, len(found.joints), found.keys)
         return replace(model, notes=(*model.notes, *notes))
 
-    def _inside(self, element: Element, body: str, at: Pose, child_class: str | None) -> None:
-        """Read what is inside a body, or inside a frame in it; `at` is the place of either in the world."""
+    def _own(self, element: Element, at: Pose, child_class: str | None) -> Iterator[Placed]:
+        """Yield the elements of a body with the place in the world that they are given in, and the class that they have
+        where they name none; those in frames have the place and the class of these."""
         self.found.notes += unknown_parts(element, BODY, f"{self.file}: {tag(element)}")
         for each in element:
-            where = f"{self.file}: {tag(each)}"
             if each.tag == "frame":
-                inner = at @ self.compiler.pose(each.attrib, where)
-                self._inside(each, body, inner, each.get("childclass", child_class))
-            elif each.tag == "body":
+                inner = at @ self.compiler.pose(each.attrib, f"{self.file}: {tag(each)}")
+                yield from self._own(each, inner, each.get("childclass", child_class))
+            else:
+                yield each, at, child_class
+
+    def _inside(self, own: Sequence[Placed], body: str) -> None:
+        """Read the bodies, solids and sites of a body."""
+        for each, at, child_class in own:
+            where = f"{self.file}: {tag(each)}"
+            if each.tag == "body":
                 self._body(each, body, at, child_class)
             elif each.tag == "geom":
                 shape = self.shapes.shape(each, child_class, where)
@@ -149,27 +161,27 @@ class _Reader:
         child_class = element.get("childclass", child_class)
         pose = at @ self.compiler.pose(element.attrib, where)
         found.poses[name], found.shapes[name] = pose, []
-        self._inertial(element, name, child_class, where)
-        free = element.find("freejoint") is not None or any(
-            self.defaults.said(each, child_class).get("type") == "free" for each in element.iterfind("joint")
+        own = [*self._own(element, pose, child_class)]
+        self._inertial(element, own, name, where)
+        joints = [each for each in own if each[0].tag in ("joint", "freejoint")]
+        free = any(
+            each.tag == "freejoint" or self.defaults.said(each, of).get("type") == "free" for each, _, of in joints
         )
-        if free or element.get("mocap") == "true":
-            how = "floats" if free else "is moved from outside (mocap)"
-            found.notes.append(f"{where}: it {how}: held at rest; give fixed= to hold another part instead")
-            found.floating.append(name)
-            found.order += [""] if free else []
+        if free:
+            found.order.append("")
+        elif element.get("mocap") == "true":
+            found.notes.append(f"{where}: it is moved from outside (mocap): held at rest where fixed= names no parts")
+            found.held.append(name)
         else:
-            joints = [*self._own_joints(element, pose, where)]
-            self._chain(joints, parent, name, pose, child_class)
-        self._inside(element, name, pose, child_class)
+            self._chain(joints, parent, name, pose)
+        self._inside(own, name)
 
-    def _inertial(self, element: Element, body: str, child_class: str | None, where: str) -> None:
+    def _inertial(self, element: Element, own: Sequence[Placed], body: str, where: str) -> None:
         """Read the mass of a body; where the model has MuJoCo compute it from geoms that weigh, it stays unknown."""
         found = element.find("inertial")
         if found is None or self.compiler.said.get("inertiafromgeom") == "true":
-            said = [self.defaults.said(each, each.get("childclass", child_class)) for each in element.iter("geom")]
-            own = sum(1 for _ in element.iterfind("geom")) + sum(1 for _ in element.iterfind("frame"))
-            if not own or all("0" in (each.get("mass"), each.get("density")) for each in said):
+            said = [self.defaults.said(each, of) for each, _, of in own if each.tag == "geom"]
+            if all("0" in (each.get("mass"), each.get("density")) for each in said):
                 self.found.inertials[body] = NONE
             return
         where = f"{where}: inertial"
@@ -182,24 +194,14 @@ class _Reader:
         if made is not None:
             self.found.inertials[body] = made
 
-    def _own_joints(self, element: Element, at: Pose, where: str) -> Iterator[tuple[Element, Pose]]:
-        """Yield the joints of a body with the place that they are given in: those in frames are given in these."""
-        for each in element:
-            if each.tag == "joint":
-                yield each, at
-            elif each.tag == "frame":
-                yield from self._own_joints(each, at @ self.compiler.pose(each.attrib, where), where)
-
-    def _chain(
-        self, joints: list[tuple[Element, Pose]], parent: str, body: str, pose: Pose, child_class: str | None
-    ) -> None:
+    def _chain(self, joints: Sequence[Placed], parent: str, body: str, pose: Pose) -> None:
         """Join a body to the one around it by its joints in turn; between two of them is a part without a solid."""
         found = self.found
         if not joints:
             text = f"body {body!r} in {parent!r}"
             found.joints.append(RobotJoint(f"{body} on {parent}", (parent, body), JointKind.FIXED, pose, pose, text))
         before = parent
-        for number, (each, at) in enumerate(joints, start=1):
+        for number, (each, at, child_class) in enumerate(joints, start=1):
             after = body if number == len(joints) else f"{body}/{number}"
             if after != body:
                 found.poses[after], found.shapes[after], found.inertials[after] = pose, [], NONE

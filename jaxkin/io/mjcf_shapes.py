@@ -8,7 +8,7 @@ import numpy as np
 
 from jaxkin.geometry.pose import inverse
 from jaxkin.io.mjcf_text import Compiler, Defaults
-from jaxkin.io.robot_model import Shape, along, direction, numbers, placed, quaternion
+from jaxkin.io.robot_model import Shape, numbers, placed, quaternion
 
 SIZES = {"sphere": 1, "ellipsoid": 3, "box": 3, "capsule": 2, "cylinder": 2}
 """Types of solids -> how many sizes each needs."""
@@ -41,9 +41,8 @@ class Shapes:
         if kind not in SIZES:
             return None
         size = np.array((said.get("size") or "").split(), float)
-        if "fromto" in said and kind != "sphere":
+        if "fromto" in said:
             start, end = numbers(said["fromto"], 6, where).reshape(2, 3)
-            pose = placed(along(direction(end - start, where)), (start + end) / 2)
             half = float(np.linalg.norm(end - start)) / 2
             size = np.array([size[0], half] if SIZES[kind] == 2 else [size[0], size[0], half])
         if len(size) < SIZES[kind] or not np.isfinite(size).all() or np.any(size[: SIZES[kind]] <= 0):

@@ -126,7 +126,11 @@ class Compiler:
         self.strip = self.said.get("strippath", "false") == "true"
 
     def pose(self, said: Mapping[str, str], where: str) -> Pose:
-        """Read the place of an element from its attributes, metres."""
+        """Read the place of an element from its attributes, metres: one between two points is in the middle of them,
+        and its z axis points to the first."""
+        if "fromto" in said:
+            start, end = numbers(said["fromto"], 6, where).reshape(2, 3)
+            return placed(along(direction(start - end, where)), (start + end) / 2)
         return placed(self.turn(said, where), numbers(said.get("pos"), 3, where, (0, 0, 0)))
 
     def turn(self, said: Mapping[str, str], where: str) -> np.ndarray:

@@ -40,6 +40,8 @@ class Ties:
         self.file, self.root = file, root
         self.compiler, self.defaults, self.poses, self.sites = compiler, defaults, poses, sites
         self.notes: list[str] = []
+        self.held: dict[str, float] = {}
+        """Joints that a constraint holds, and where, counted from the pose that is written; found with `couplings`."""
 
     def loops(self, taken: Collection[str]) -> list[RobotJoint]:
         """Make the joints of <connect> and <weld>; `taken` are names of joints that there are."""
@@ -74,6 +76,7 @@ class Ties:
             stiff = [name for name in names if joints[name].kind not in SINGLE]
             factors = _polycoef(said, where)
             if len(names) == 1 and not stiff:
+                self.held[names[0]] = float(factors[0])
                 at = f"{factors[0]:g} from the pose that is written" if factors[0] else "zeros"
                 self.notes.append(
                     f"{where} holds {names[0]!r}, which is a freedom of its own here; drive it with {at} to hold it"
@@ -130,7 +133,7 @@ class Ties:
             if kind is JointKind.SPHERICAL:
                 first = second = self.poses[one] @ placed(np.eye(3), anchor)
             else:
-                first = second = self.poses[other]
+                first = second = self.poses[other] @ placed(np.eye(3), anchor)
                 relative = numbers(said.get("relpose"), 7, where, (0, 1, 0, 0, 0, 0, 0))
                 if relative[3:].any():  # else the bodies hold each other as they are written
                     first = self.poses[one] @ placed(quaternion(relative[3:], where), relative[:3])

@@ -23,7 +23,7 @@ from jaxkin.io.names import unique
 from jaxkin.io.numbers import written
 from jaxkin.io.robot_model import UNLIMITED, WORLD
 from jaxkin.io.single_motions import BALL, SLIDE, coordinate_names, coordinate_scale, single_motions
-from jaxkin.io.writable import check_writable
+from jaxkin.io.writable import check_robot
 from jaxkin.io.written_masses import principal_axes, written_inertials
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Joint
@@ -47,8 +47,9 @@ def write_mjcf(mechanism: Mechanism, path: str | os.PathLike[str], *, masses: Ma
     """Write a mechanism as a model of MuJoCo (.xml), in metres, and return its path.
 
     The file holds bodies, joints with their ranges, loops, couplings, motors as actuators, and the solids as meshes; it
-    appears whole or not at all. MuJoCo pulls loops together by springs, so the poses that it settles at agree with a
-    sweep to their softness. A coordinate of a joint that has several is a joint of its own there, "joint_phi".
+    appears whole or not at all. A locked joint, whose limits are equal, is held by an equality. MuJoCo pulls loops
+    together by springs, so the poses that it settles at agree with a sweep to their softness. A coordinate of a joint
+    that has several is a joint of its own there, "joint_phi".
 
     Bodies weigh what the file says that the mechanism was read from, or what `masses`, found by `jk.masses`, say. Of
     others MuJoCo computes the masses from their meshes, as shells.
@@ -71,7 +72,7 @@ class _Writer:
     """The elements of one model."""
 
     def __init__(self, mechanism: Mechanism, model: str, inertials: Mapping[str, Inertial]) -> None:
-        check_writable(mechanism.all_joints, "model")
+        check_robot(mechanism, "model")
         self.mechanism = mechanism
         self.metres = METRES[mechanism.unit]
         self.root = Element("mujoco", model=model)
@@ -127,7 +128,11 @@ class _Writer:
                 attributes["pos"] = written(*each.point)
             if each.kind != BALL:
                 attributes["axis"] = written(*each.axis)
-            if np.isfinite(each.limits).any():
+            low, high = each.limits
+            if low == high:  # which MuJoCo takes for no range
+                held = [low, *[0.0] * LARGEST_POWER]
+                SubElement(self.equality, "joint", name=f"{each.name} locked", joint1=each.name, polycoef=written(*held))
+            elif np.isfinite(each.limits).any():
                 attributes["range"] = written(*np.clip(each.limits, -UNLIMITED, UNLIMITED))
             SubElement(body, "joint", attributes)
             if each.follows is not None:

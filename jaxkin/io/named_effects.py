@@ -97,8 +97,8 @@ def _contacts_lack(motion: Motion, settings: Mapping[str, Any]) -> str:
     if motion.mechanism.contacts:
         return ""
     return (
-        "joints that were read from contacts, and there are none: in a study of solids, leave out contacts = false and "
-        "[joints]"
+        "joints that were read from contacts, and there are none: the file of a robot says its joints itself; in a "
+        "study of drawn solids, leave out contacts = false and [joints]"
     )
 
 

@@ -17,15 +17,20 @@ _DAMAGED = {"Cc", "Cn", "Co", "Cs"}
 
 
 def cleaned(name: str) -> str:
-    """Make a name fit for messages and studies: one line, only letters that can be typed, `MAX_NAME_LETTERS` at most.
+    """Make a name fit for messages and studies: typed in one line, and of `MAX_NAME_LETTERS` at most."""
+    line = in_one_line(name)
+    return line if len(line) <= MAX_NAME_LETTERS else f"{line[: MAX_NAME_LETTERS - _END - 3]}...{line[-_END:]}"
 
-    White space of any kind becomes one blank; damaged letters become "_", invisible ones are left out. A name that is
-    clean stays as it is.
+
+def in_one_line(name: str) -> str:
+    """Make a name of letters that can be typed in one line; a name of such letters stays as it is.
+
+    White space of any kind becomes one blank, and is left out at the ends; damaged letters become "_", invisible ones
+    are left out.
     """
     typed = "".join(" " if letter.isspace() else "_" if _damaged(letter) else letter for letter in name)
     visible = "".join(letter for letter in typed if unicodedata.category(letter) != "Cf")
-    line = " ".join(visible.split())
-    return line if len(line) <= MAX_NAME_LETTERS else f"{line[: MAX_NAME_LETTERS - _END - 3]}...{line[-_END:]}"
+    return " ".join(visible.split())
 
 
 def is_damaged(name: str) -> bool:

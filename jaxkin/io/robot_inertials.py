@@ -10,7 +10,7 @@ import numpy as np
 from jaxkin.geometry.inertial import Inertial
 from jaxkin.geometry.pose import Pose
 from jaxkin.io.robot_model import numbers
-from jaxkin.io.sdf_frames import read_pose
+from jaxkin.io.sdf_frames import is_true, read_pose
 
 SIX = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
 """Names of the entries of an inertia matrix in URDF and SDF, in the order of `inertial`."""
@@ -48,7 +48,7 @@ def inertial(
 def sdf_inertial(link: Element, where: str, notes: list[str]) -> Inertial | None:
     """Read the mass of a link of SDF, with the defaults of the format inside of <inertial>: 1 kg, 1 kg m^2."""
     found = link.find("inertial")
-    if found is None or found.get("auto") == "true":
+    if found is None or is_true(found.get("auto")):
         return None
     mass, matrix = float(numbers(found.findtext("mass"), 1, where, (1,))[0]), found.find("inertia")
     given = {} if matrix is None else {each.tag: each.text for each in matrix}

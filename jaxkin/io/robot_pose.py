@@ -17,9 +17,10 @@ def posed(model: RobotModel, steps: Mapping[str, tuple[Pose, tuple[float, ...]]]
 
     `steps` maps joints to the displacement (4, 4) of the second link in the frame of the joint, metres, and to that of
     its coordinates, none for a ball. The first `tree` joints of the model are its tree, those nearer to the ground
-    first; the others are loops, whose frames go along with their links and may come apart.
+    first, and links without a joint of it stay; the others are loops, whose frames go along with their links and may
+    come apart.
     """
-    places = {name: np.eye(4) for name in model.fixed}
+    places = {link.name: np.eye(4) for link in model.links}
     for each in model.joints[:tree]:
         step = steps.get(each.name, (np.eye(4), ()))[0]
         places[each.parts[1]] = places[each.parts[0]] @ each.frame_1 @ step @ inverse(each.frame_1)

@@ -68,8 +68,7 @@ def _held(model: RobotModel, file: str) -> RobotModel:
         return model
     held = tuple(min(group, key=names.index) for group in loose)
     note = (
-        f"{file}: nothing ties {listed(list(map(repr, held)))} to the ground: held at rest; give fixed= to hold "
-        "another part instead"
+        f"{file}: nothing ties {listed(list(map(repr, held)))} to the ground: held at rest where fixed= names no parts"
     )
     return replace(model, fixed=(*model.fixed, *held), notes=(*model.notes, note))
 

@@ -26,7 +26,7 @@ from jaxkin.io.robot_model import (
     tag,
     unknown_parts,
 )
-from jaxkin.io.sdf_frames import IN_ANOTHER, Frames
+from jaxkin.io.sdf_frames import IN_ANOTHER, Frames, is_true
 from jaxkin.io.sdf_gearbox import Gearbox, gearboxes
 from jaxkin.io.sdf_includes import axis_in_model, included
 from jaxkin.io.sdf_shapes import shapes_of
@@ -115,7 +115,7 @@ class _Reader:
         """Read the links and joints of a model at a pose in the world, and those of the models in it."""
         where = f"{self.file}: {tag(model)}"
         self.notes += unknown_parts(model, MODEL_TAGS, where)
-        static = static or (model.findtext("static") or "").strip() in ("true", "1")
+        static = static or is_true(model.findtext("static"))
         for each in model.iterfind("link"):
             name = each.get("name", "")
             seen, felt = (shapes_of(each, what, self.file, self.notes) for what in ("visual", "collision"))

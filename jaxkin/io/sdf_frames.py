@@ -29,6 +29,11 @@ class Frame(NamedTuple):
     """The link or frame that it moves with; a link is attached to itself."""
 
 
+def is_true(text: str | None) -> bool:
+    """Read a boolean as SDF has it: 1, or true in letters of any case; what is not written is false."""
+    return (text or "").strip().lower() in ("1", "true")
+
+
 def read_pose(element: Element | None, where: str) -> Pose:
     """Read the <pose> of an element, metres; the identity where there is none, or an empty one."""
     found = None if element is None else element.find("pose")
@@ -38,7 +43,7 @@ def read_pose(element: Element | None, where: str) -> Pose:
         x, y, z, *turn = numbers(found.text, 7, f"{where}: pose")
         return placed(quaternion([turn[3], *turn[:3]], where), (x, y, z))
     x, y, z, *angles = numbers(found.text, 6, f"{where}: pose")
-    unit = np.pi / 180 if found.get("degrees") == "true" else 1.0
+    unit = np.pi / 180 if is_true(found.get("degrees")) else 1.0
     return placed(roll_pitch_yaw(unit * np.array(angles)), (x, y, z))
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement
 
-from jaxkin.io.sdf_frames import MODEL
+from jaxkin.io.sdf_frames import MODEL, is_true
 from jaxkin.io.xml_tree import read_xml
 
 MAX_INCLUDED = 20
@@ -38,7 +38,7 @@ def included(element: Element, folder: Path, file: str, depth: int = 0) -> None:
             _axes_in_frames(joint, root.get("version", ""))
         _overridden(model, each)
         included(model, found.parent, file, depth + 1)
-        merged = each.get("merge", "false") in ("true", "1")
+        merged = is_true(each.get("merge"))
         if merged and element.tag != "model":
             raise ValueError(f"{file}: it merges {uri!r} into what is no <model>; include it without merge")
         number = list(element).index(each)
@@ -59,7 +59,7 @@ def _found(include: Element, folder: Path, file: str) -> tuple[Path, str]:
 def axis_in_model(axis: Element, version: str) -> bool:
     """Tell whether an axis is in the frame of its model, as it is in files before 1.5, and not in that of its joint."""
     old = [int(part) for part in version.split(".")[:2] if part.isdigit()] < [1, 5]
-    return old or (axis.findtext("use_parent_model_frame") or "").strip() in ("true", "1")
+    return old or is_true(axis.findtext("use_parent_model_frame"))
 
 
 def _axes_in_frames(joint: Element, version: str) -> None:

@@ -50,7 +50,7 @@ def small_drive(mechanism: Mechanism) -> dict[str, str]:
     """Return small ranges for coordinates that determine the motion of solids; none where nothing can be driven.
 
     These are those that the mobility names, but where one of them moves the others by far more than itself: then the
-    one that does so least. Wheels, which move nothing else, come last and stay as they are.
+    one that does so least. Wheels, which move nothing else, come last and stay as they are, and so does what is locked.
     """
     if opening(mechanism.linkage, mechanism.unit) is not None:
         return {}
@@ -60,8 +60,19 @@ def small_drive(mechanism: Mechanism) -> dict[str, str]:
         others = [name for name in useful_coordinates(mechanism) if can_drive(mechanism, [name])]
         driven = (max(others, key=lambda name: _shares(mechanism, [name])[0], default=driven[0]),)
     turning = wheels_of(mechanism)
-    still = {name: f"0:0:{_COUNT}" for name in driven if name in turning and len(turning) < len(driven)}
+    resting = {*turning} if len(turning) < len(driven) else set()
+    still = {name: f"0:0:{_COUNT}" for name in driven if name in resting | _locked(mechanism)}
     return small_ranges(mechanism, [name for name in driven if name not in still]) | still
+
+
+def _locked(mechanism: Mechanism) -> set[str]:
+    """Name the coordinates whose two limits are equal."""
+    return {
+        f"{joint.name}.{coordinate}"
+        for joint in mechanism.all_joints
+        for coordinate, (low, high) in zip(joint.coordinates, joint.limits, strict=bool(joint.limits))
+        if low == high
+    }
 
 
 def small_ranges(mechanism: Mechanism, driven: Sequence[str]) -> dict[str, str]:

@@ -28,7 +28,7 @@ from jaxkin.io.robot_inertials import SIX
 from jaxkin.io.robot_loops import SPHERICAL
 from jaxkin.io.robot_model import UNLIMITED, WORLD
 from jaxkin.io.single_motions import BALL, SLIDE, SingleMotion, coordinate_names, coordinate_scale, single_motions
-from jaxkin.io.writable import check_writable
+from jaxkin.io.writable import check_robot
 from jaxkin.io.written_masses import written_inertials
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Joint
@@ -88,7 +88,7 @@ class _Writer:
     """The elements of one robot, and the texts of the files beside it."""
 
     def __init__(self, mechanism: Mechanism, name: str, inertials: Mapping[str, Inertial]) -> None:
-        check_writable(mechanism.all_joints, "robot")
+        check_robot(mechanism, "robot")
         self.mechanism, self.metres = mechanism, METRES[mechanism.unit]
         self.folder = f"{name}_meshes"
         self.root = Element("robot", name=name)
@@ -281,7 +281,6 @@ def _warn_of_unknown_masses(mechanism: Mechanism, inertials: Mapping[str, Inerti
 
 
 def _quoted(name: str) -> str:
-    """Write a name in the quotes that it has none of."""
-    if "'" in name and '"' in name:
-        raise ValueError(f"the name {name!r} has quotes of both kinds, which a file of loops cannot hold; rename it")
-    return f'"{name}"' if "'" in name else f"'{name}'"
+    """Write a name in single quotes, which are doubled inside."""
+    doubled = name.replace("'", "''")
+    return f"'{doubled}'"

@@ -3,13 +3,14 @@
 The loops of a robot are a handful of lists of names. For these a reader of all of YAML (tags, anchors, documents) would
 be one more dependency, and most of it a risk. What is read:
 
-- `key: value` at the margin, each key once;
+- `key: value` at the margin, each key once, or the value on the lines after `key:`;
 - a value is a scalar, or a list `[a, 'b', [c, d]]` that may go on over several lines;
 - or, on the lines after `key:`, a list with one `- value` a line, where `- - value` begins a list in it;
-- texts are bare, or in single or double quotes without escapes; comments begin with "#" after a blank.
+- texts are bare, in single quotes that are doubled inside, or in double quotes without escapes;
+- comments begin with "#" after a blank outside of quotes.
 
-All scalars are texts. Everything else is refused, with the number of its line, unless it belongs to a key that nobody
-asks for.
+All scalars are texts; nothing, `null` or `~`, is an empty one. Everything else is refused, with the number of its line,
+unless it belongs to a key that nobody asks for.
 """
 
 from __future__ import annotations
@@ -32,10 +33,19 @@ MAX_SHOWN = 80
 MAX_LEVELS = 20
 """Lists in each other; loops have two."""
 
+BYTE_ORDER_MARK = "\ufeff"
+"""What some editors begin a file with."""
+
 Value = str | list["Value"]
 
-_KEY = re.compile(r"([A-Za-z_][\w \-]*?)\s*:(?:\s+|$)(.*)")
-_TOKEN = re.compile(r"\s*(?:([\[\],])|'([^']*)'|\"([^\"\\]*)\"|([^\s\[\],'\"{}&*!|>%@`#][^\[\],{}#]*))")
+NULLS = ("~", "null", "Null", "NULL")
+"""Bare texts that stand for nothing."""
+
+_SINGLE, _DOUBLE = r"'((?:[^']|'')*)'", r'"([^"\\]*)"'
+_BARE = r"""([^\s\[\],'"{}&*!|>%@`#](?:[^\[\],{}#]|(?<=\S)#)*)"""
+_KEY = re.compile(rf"(?:{_SINGLE}|{_DOUBLE}|([A-Za-z_][\w \-]*?))\s*:(?:\s+|$)(.*)")
+_TOKEN = re.compile(rf"\s*(?:([\[\],])|{_SINGLE}|{_DOUBLE}|{_BARE})")
+_QUOTED_OR_COMMENT = re.compile(rf"(?:^|(?<=[\s\[,]))(?P<quoted>{_SINGLE}|{_DOUBLE})|(?:^|\s)#.*")
 
 
 def read_yaml(path: Path, keys: Collection[str] = ()) -> dict[str, Value]:
@@ -57,6 +67,7 @@ def parse_yaml(text: str, source: str, keys: Collection[str] = ()) -> dict[str, 
     if re.search(rf"[^,\[\]\n]{{{MAX_LETTERS + 1}}}", text):
         raise ValueError(f"{source}: it holds a text of more than {MAX_LETTERS} letters")
     found: dict[str, Value] = {}
+    text = text.removeprefix(BYTE_ORDER_MARK)
     lines = [(number, line) for number, line in enumerate(map(_uncommented, text.splitlines()), 1) if line.strip()]
     lines = [(number, line) for number, line in lines if line.strip() not in ("---", "...") and line[0] != "%"]
     while lines:
@@ -65,7 +76,7 @@ def parse_yaml(text: str, source: str, keys: Collection[str] = ()) -> dict[str, 
         where = f"{source}, line {number}"
         if said is None:
             raise ValueError(f"{where}: expected a key and its value, name_mot: ['hip', 'knee'], got {_shown(line)}")
-        key, value = said[1], said[2]
+        key, value = _scalar(*said.groups()[:3]), said[4]
         if key in found:
             raise ValueError(f"{where}: the key {key!r} is there twice")
         if keys and key not in keys:
@@ -74,20 +85,41 @@ def parse_yaml(text: str, source: str, keys: Collection[str] = ()) -> dict[str, 
             while lines and (depth > 0 or lines[0][1][0].isspace() or lines[0][1].startswith("-")):
                 depth += _depth(lines.pop(0)[1])
         elif value:
-            while value.count("[") > value.count("]") and lines:
-                value = f"{value} {lines.pop(0)[1].strip()}"
-            found[key] = _flow(value, where)
+            found[key] = _flow(_whole(value, lines), where)
         else:
             block = []
             while lines and (lines[0][1][0].isspace() or lines[0][1].startswith("-")):
                 block.append(lines.pop(0))
-            found[key] = _block(block, source) if block else ""
+            if block and not _is_entry(block[0][1]):
+                found[key] = _flow(" ".join(line.strip() for _, line in block), f"{source}, line {block[0][0]}")
+            else:
+                found[key] = _block(block, source) if block else ""
     return found
 
 
 def _depth(text: str) -> int:
-    """Count the brackets that a text leaves open."""
+    """Count the brackets that a text leaves open, but for those in quotes."""
+    text = _QUOTED_OR_COMMENT.sub("", text)
     return sum(text.count(mark) for mark in "[{") - sum(text.count(mark) for mark in "]}")
+
+
+def _whole(value: str, lines: list[tuple[int, str]]) -> str:
+    """Take from the lines that follow those in which the lists of a value go on."""
+    while _depth(value) > 0 and lines:
+        value = f"{value} {lines.pop(0)[1].strip()}"
+    return value
+
+
+def _scalar(single: str | None, double: str | None, bare: str | None) -> str:
+    """Read a text that was written in one of three ways: the two others are None."""
+    if bare is not None:
+        return "" if bare.strip() in NULLS else bare.strip()
+    return double or (single or "").replace("''", "'")
+
+
+def _is_entry(line: str) -> bool:
+    """Tell whether a line is an entry of a list."""
+    return line.strip() == "-" or line.strip().startswith("- ")
 
 
 def _shown(text: str) -> str:
@@ -96,7 +128,7 @@ def _shown(text: str) -> str:
 
 
 def _uncommented(line: str) -> str:
-    return re.sub(r"(^|\s)#.*", "", line)
+    return _QUOTED_OR_COMMENT.sub(lambda found: found["quoted"] or "", line)
 
 
 def _flow(text: str, where: str) -> Value:
@@ -118,7 +150,7 @@ def _flow(text: str, where: str) -> Value:
         elif mark == "," and not expected and len(open_lists) > 1:
             expected = True
         elif mark is None and expected:
-            open_lists[-1].append(next(group for group in token.groups()[1:] if group is not None).strip())
+            open_lists[-1].append(_scalar(*token.groups()[1:]))
             expected = False
         else:
             raise ValueError(f"{where}: {mark or token[0].strip()!r} is out of place in {_shown(text)}")
@@ -135,7 +167,7 @@ def _block(lines: list[tuple[int, str]], source: str) -> list[Value]:
         number, line = lines.pop(0)
         where = f"{source}, line {number}"
         entry = line.strip()
-        if len(line) - len(line.lstrip()) != depth or not (entry == "-" or entry.startswith("- ")):
+        if len(line) - len(line.lstrip()) != depth or not _is_entry(entry):
             raise ValueError(f"{where}: expected one more entry, - value, got {entry!r}")
         entry = entry[1:]
         inner: list[tuple[int, str]] = []
@@ -145,8 +177,5 @@ def _block(lines: list[tuple[int, str]], source: str) -> list[Value]:
                 inner.append(lines.pop(0))
             result.append(_block(inner, source) if inner else "")
         else:
-            value = entry.strip()
-            while value.count("[") > value.count("]") and lines:
-                value = f"{value} {lines.pop(0)[1].strip()}"
-            result.append(_flow(value, where))
+            result.append(_flow(_whole(entry.strip(), lines), where))
     return result

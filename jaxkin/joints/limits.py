@@ -18,7 +18,7 @@ def with_limits(joint: Joint, given: GivenLimits | None) -> Joint:
     """Give limits to the coordinates of a joint, counted from the assembled pose, radians or lengths; inf for none.
 
     Raises ValueError for unknown coordinates, for the angles of a ball, which are one turn, and for limits that are not
-    two numbers, low before high.
+    two numbers in rising order. Two equal ones lock the coordinate.
     """
     if given is None:
         return joint
@@ -49,6 +49,6 @@ def _ends(ends: Sequence[float | int], what: str) -> tuple[float, float]:
         low, high = (float(end) for end in ends)
     except (TypeError, ValueError):
         low = high = np.nan
-    if not low < high:
-        raise ValueError(f"{what} must be two numbers, low before high, such as (-0.5, 0.5), got {ends!r}")
+    if not (low <= high and low < np.inf and high > -np.inf):
+        raise ValueError(f"{what} must be two numbers, the lower one first, such as (-0.5, 0.5), got {ends!r}")
     return low, high

@@ -102,8 +102,11 @@ def _why_it_cannot_move(mechanism: Mechanism, freedoms: int) -> list[str]:
         said = f"Nothing can move but parts about themselves: {what} idle or of parts that only spin."
     ways = mechanism.blocking_contacts()
     if not ways:
+        if not mechanism.contacts:
+            return [said if freedoms else f"{said} No single joint is the reason."]
         return [f"{said} No single contact is the reason, nor are several between the same two parts."]
-    return [f"{said} It could without one of these (leave a contact out with ignore=):", *(f"  {way}" for way in ways)]
+    how = " (leave a contact out with ignore=)" if mechanism.contacts else ""
+    return [f"{said} It could without one of these{how}:", *(f"  {way}" for way in ways)]
 
 
 def why_infeasible(mechanism: Mechanism, drive: InfeasibleDrive) -> str:

@@ -44,16 +44,32 @@ def drawn_parts(mechanism: Mechanism) -> tuple[Part, ...]:
     """Make the parts of a mechanism to draw, every one with a colour: red, green, blue as on the screen (sRGB), in
     0..1.
 
-    The solids where the mechanism was read from a file, otherwise sticks; colours of the file where it gives any.
-    Parts without one share that of their body.
+    The solids where the mechanism was read from a file, otherwise sticks, also for parts of which the file has no
+    solid; colours of the file where it gives any. Parts without one share that of their body.
     """
-    solids = mechanism.solids or stick_parts(mechanism)
+    solids = drawn_solids(mechanism)
     painted = {part.name for part in solids if part.color}
     colors, of_part = cycle(PALETTE), {}
     for parts in mechanism.bodies.values():
         if not painted.issuperset(parts):
             of_part |= dict.fromkeys(parts, FIXED_COLOR if parts[0] in mechanism.fixed else next(colors))
     return tuple(part if part.color else replace(part, color=of_part[part.name]) for part in solids)
+
+
+def drawn_solids(mechanism: Mechanism) -> tuple[Part, ...]:
+    """Make the parts of a mechanism to draw, in the colours of the file: sticks where it has no solid of a part.
+
+    A part without a solid and without joints stays the mark that it is.
+    """
+    solids = mechanism.solids
+    if not solids:
+        return stick_parts(mechanism)
+    if all(part.is_solid for part in solids) or not mechanism.joints:
+        return solids
+    sticks = {part.name: part.triangles for part in stick_parts(mechanism) if len(part.triangles)}
+    return tuple(
+        part if part.is_solid else replace(part, triangles=sticks.get(part.name, part.triangles)) for part in solids
+    )
 
 
 def told_apart(parts: Sequence[Part], bodies: Mapping[str, Sequence[str]], fixed: Collection[str]) -> tuple[Part, ...]:

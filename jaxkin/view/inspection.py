@@ -14,7 +14,7 @@ from jaxkin.contacts.contact import Contact
 from jaxkin.contacts.tolerance import default_length
 from jaxkin.geometry.units import unit_name
 from jaxkin.view.callouts import CHAIN, COLORS, draw_axes, draw_contacts, draw_states
-from jaxkin.view.drawing import DISTINCT, FIXED_COLOR, body_colors, body_label, told_apart
+from jaxkin.view.drawing import DISTINCT, FIXED_COLOR, body_colors, body_label, drawn_solids, told_apart
 from jaxkin.view.glass import WIDTH, canvas_of, pale, see_through
 from jaxkin.view.illustration import INK
 from jaxkin.view.regions import Region, region_of
@@ -45,15 +45,17 @@ def draw_inspection(
     fixed = mechanism.fixed if mechanism else ()
     bodies = _bodies(assembly, mechanism)
     by_body = body_colors(bodies, fixed)
-    parts = [replace(part, color=part.color or by_body[part.name]) for part in assembly.parts]
+    drawn = {part.name: part for part in drawn_solids(mechanism)} if mechanism else {}
+    solids = [drawn.get(part.name, part) for part in assembly.parts]
+    parts = [replace(part, color=part.color or by_body[part.name]) for part in solids]
     colors = {part.name: part.color or FIXED_COLOR for part in told_apart(parts, bodies, fixed)}
-    canvas = canvas_of(assembly.parts, fixed, width)
+    canvas = canvas_of(solids, fixed, width)
     regions = _regions(assembly, contacts)
     entries = _legend(contacts, colors, bodies, mechanism)
     sheet = make_sheet(canvas, 1, 1, entries)
     left, top = sheet.place(0)
     areas = [region.triangles for region, contact in regions if contact.region == "surface"]
-    image = see_through(canvas, assembly.parts, list(colors.values()), areas, COLORS["surface"])
+    image = see_through(canvas, solids, list(colors.values()), areas, COLORS["surface"])
     sheet.figure.figimage(image, xo=left, yo=sheet.height - top - CAPTION - canvas.height)
     corner = left, top + CAPTION
     draw_contacts(sheet, regions, corner)

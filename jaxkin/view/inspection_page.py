@@ -20,8 +20,7 @@ from jaxkin.geometry.units import unit_name
 from jaxkin.joints.evidence import EvidenceKind
 from jaxkin.joints.joint import Joint
 from jaxkin.mechanism.mechanism import Mechanism
-from jaxkin.view.drawing import body_colors, body_label
-from jaxkin.view.sticks import stick_parts
+from jaxkin.view.drawing import body_colors, body_label, drawn_solids
 from jaxkin.view.viewer import encoded, part_entries, rounded, write_page
 
 YAW, PITCH = -0.6, 0.5
@@ -64,7 +63,7 @@ def inspection_page(
 def _scene(found: Mechanism | Assembly, source: str) -> dict:
     """Write what `inspection.js` reads, beside what the viewer does. Lengths are over `scale` about `centre`."""
     mechanism = found if isinstance(found, Mechanism) else None
-    solids = found.parts if isinstance(found, Assembly) else found.solids or stick_parts(found)
+    solids = found.parts if isinstance(found, Assembly) else drawn_solids(found)
     fixed = mechanism.fixed if mechanism else ()
     bodies = mechanism.bodies if mechanism else {part.name: (part.name,) for part in solids}
     corners = np.concatenate([part.box for part in solids])

@@ -36,15 +36,17 @@ def stick_parts(mechanism: Mechanism) -> tuple[Part, ...]:
 
     In world coordinates of the assembled pose and in the unit of the mechanism, in the order of `mechanism.parts`.
     Up to three joints of a part are linked pair by pair, more of them to their middle. Where all axes are parallel, the
-    parts lie in layers one above the other, fixed ones lowest, as in a linkage that one could build.
+    bodies lie in layers one above the other, fixed ones lowest, as in a linkage that one could build, unless there are
+    solids, which lie where they are.
     """
     frames = _frames(mechanism)
     origins = np.array([pose[:3, 3] for poses in frames.values() for pose in poses])
     reach = float(np.linalg.norm(origins - origins.mean(axis=0), axis=-1).max())
     radius = _SLIMNESS * (reach or 1.0)
-    moving = [part for part in mechanism.parts if part not in mechanism.fixed]
-    layers = {part: _LAYER * (1 + moving.index(part) if part in moving else 0) for part in mechanism.parts}
-    up = _common_axis(mechanism)
+    moving = [parts for name, parts in mechanism.bodies.items() if name not in mechanism.fixed]
+    layers = dict.fromkeys(mechanism.parts, 0.0)
+    layers |= {part: _LAYER * layer for layer, parts in enumerate(moving, start=1) for part in parts}
+    up = np.zeros(3) if any(part.is_solid for part in mechanism.solids) else _common_axis(mechanism)
 
     ends: dict[str, list[Float[np.ndarray, "3"]]] = {part: [] for part in mechanism.parts}
     pieces: dict[str, list[Triangles]] = {part: [] for part in mechanism.parts}
@@ -64,9 +66,12 @@ def stick_parts(mechanism: Mechanism) -> tuple[Part, ...]:
         if joint.curves:
             for part, drawn in zip(joint.parts, curve_figures(joint, radius), strict=True):
                 pieces[part] += [triangles + layers[part] * up for triangles in drawn]
+    for part, place in _marks(mechanism).items():
+        ends[part].append(place / radius + layers[part] * up)
     for part in mechanism.parts:
-        pieces[part] += _bars(ends[part], 1.0 if part in moving else _SLIMMER)
-    return tuple(Part(part, (), radius * np.concatenate(pieces[part])) for part in mechanism.parts)
+        pieces[part] += _bars(ends[part], 1.0 if layers[part] else _SLIMMER)
+    none = np.zeros((0, 3, 3))
+    return tuple(Part(part, (), radius * np.concatenate([none, *pieces[part]])) for part in mechanism.parts)
 
 
 def _frames(mechanism: Mechanism) -> dict[str, tuple[Pose, Pose]]:
@@ -88,6 +93,15 @@ def _frames(mechanism: Mechanism) -> dict[str, tuple[Pose, Pose]]:
             offset = np.linalg.solve(first, np.append(middle, 1.0))
             first[:3, 3], second[:3, 3] = middle, (second @ offset)[:3]
     return frames
+
+
+def _marks(mechanism: Mechanism) -> dict[str, Float[np.ndarray, "3"]]:
+    """Find where the file places parts of which it has no solid, and that no joint moves against another part, such as
+    the tip of a robot: in the middle of what stands for each of them."""
+    moved = {part for joint in mechanism.joints.values() if joint.freedoms for part in joint.parts}
+    return {
+        part.name: part.box.mean(axis=0) for part in mechanism.solids if not part.is_solid and part.name not in moved
+    }
 
 
 def _common_axis(mechanism: Mechanism) -> Float[np.ndarray, "3"]:

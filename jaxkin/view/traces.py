@@ -56,6 +56,8 @@ def default_marks(mechanism: Mechanism, parts: Sequence[Part], view: View, displ
     ends: dict[str, list[Vector]] = {part.name: [] for part in parts}
     marks, paths, covered = [], [], set()
     for joint in mechanism.joints.values():
+        if not joint.freedoms:
+            continue  # where it holds two parts together is nowhere in particular
         points = {joint.parts[0]: joint.frames_1[0, :3, 3], joint.parts[1]: joint.frames_2[0, :3, 3]}
         points = {part: np.asarray(point, float) for part, point in points.items()}
         for part, point in points.items():

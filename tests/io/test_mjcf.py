@@ -237,3 +237,29 @@ def test_copies_without_a_sensible_count_are_refused(tmp_path, count):
     text = f'<mujoco><worldbody><replicate count="{count}"><body name="a"/></replicate></worldbody></mujoco>'
     with pytest.raises(ValueError, match="<replicate>: expected a count"):
         load(tmp_path, text)
+
+
+FREE = """<mujoco><worldbody>{bodies}<body name="plate" pos="0 0 1"><freejoint/><geom size="0.1"/></body></worldbody>
+<equality>{ties}</equality></mujoco>"""
+LEG = """<body name="leg{n}" pos="{x} {y} 0"><joint name="x{n}" axis="1 0 0"/><joint name="y{n}" axis="0 1 0"/>
+<body name="rod{n}"><joint name="s{n}" type="slide"/><geom size="0.1"/></body></body>"""
+TIE = '<connect body1="rod{n}" body2="plate" anchor="0 0 1"/>'
+
+
+@pytest.mark.parametrize(("legs", "freedoms"), [(0, 0), (1, 6), (3, 6)])
+def test_a_body_that_floats_is_held_only_where_no_loop_ties_it(tmp_path, legs, freedoms):
+    """The plate has six freedoms, and each leg three joints and a ball at its end that takes three."""
+    corners = [(1, 0), (-1, 1), (-1, -1)][:legs]
+    bodies = "".join(LEG.format(n=n, x=x, y=y) for n, (x, y) in enumerate(corners))
+    text = FREE.format(bodies=bodies, ties="".join(TIE.format(n=n) for n in range(legs)))
+    mechanism = load(tmp_path, text).mechanism()
+    assert ("plate" in mechanism.fixed) == (not legs)
+    assert any("nothing ties 'plate' to the ground" in note for note in mechanism.notes) == (not legs)
+    assert mechanism.mobility().freedoms == freedoms
+
+
+def test_why_a_robot_does_not_move_speaks_of_no_contacts(tmp_path):
+    text = """<mujoco><worldbody><body name="trunk"><freejoint/><geom size="0.1"/><body name="leg"><joint name="hip"/>
+    <geom size="0.1"/></body></body></worldbody></mujoco>"""
+    said = str(load(tmp_path, text).mechanism(fixed=["leg"]))
+    assert "Nothing can move but parts about themselves" in said and "contact" not in said

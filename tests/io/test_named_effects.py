@@ -73,6 +73,7 @@ def test_only_what_can_be_computed_is_offered(tmp_path):
     assert said.exit_code == 0, said.output
     assert "Not computed: rates, clashes, contacts, forces (--effects rates,clashes)." in said.output
     assert "contacts needs joints that were read from contacts" in said.output
+    assert "the file of a robot says its joints itself; in a study of drawn solids" in said.output
     assert "forces needs the density of the parts" in said.output and "[effects.forces]" in said.output
     assert CliRunner().invoke(app, [*sweep, "--effects", "rates,clashes"]).exit_code == 0
     # what the lines say is lacking, written into the study

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import pytest
 
+import jaxkin as jk
 from jaxkin._names import match_parts
 from jaxkin.io.names import MAX_NAME_LETTERS, cleaned, is_damaged, unique
 from jaxkin.io.step_glb import instances
@@ -108,3 +109,17 @@ def test_the_path_of_a_part_is_of_the_assemblies_below_that_of_the_file() -> Non
     paths = [instance.path for instance in instances(_glb(nodes, [0]))]
     assert paths == [(), ("Arm",), ("Arm#2",), ("Le_g 1", "assembly", "Joint")]
     assert [instance.path for instance in instances(_glb(nodes, [1, 2]))] == [(), ("Arm",)]
+
+
+@pytest.mark.parametrize("name", ["c\t", "c ", " c", "a  b", "a\nb", "a\u200bb", "a\x00"])
+@pytest.mark.parametrize("suffix", [".urdf", ".xml", ".asmt"])
+def test_names_that_files_of_robots_would_change_are_refused(tmp_path, suffix, name):
+    write = {".urdf": jk.write_urdf, ".xml": jk.write_mjcf, ".asmt": jk.write_asmt}[suffix]
+    for part, joint in ((name, "A"), ("c", name)):
+        hinge = jk.revolute(joint, "g", part, point=(0, 0, 0), axis=(0, 0, 1))
+        mechanism = jk.Mechanism.build(fixed=["g"], joints=[hinge])
+        with pytest.raises(ValueError, match="would be read back as") as refused:
+            write(mechanism, tmp_path / f"model{suffix}")
+        assert repr(name) in str(refused.value)
+    assert not list(tmp_path.iterdir())
+    assert jk.load(mechanism.save(tmp_path / "m.json")).mechanism().joints.keys() == {name}

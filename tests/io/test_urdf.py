@@ -240,10 +240,24 @@ def test_loops_belong_to_urdf_only(tmp_path):
         ("a:\n- - x\n  - y\n- - z\n  - w", [["x", "y"], ["z", "w"]]),
         ("a: []", []),
         ("a: text", "text"),
+        ("a: ['pin #1', b#2, 'it''s'] # c", ["pin #1", "b#2", "it's"]),
+        ("a:\n  [x,  # first\n  'y # z', 'z[1', \"]\"]", ["x", "y # z", "z[1", "]"]),
+        ("a:\n- 'x [#1'\n- [y,\n z]", ["x [#1", ["y", "z"]]),
+        ("'a': x", "x"),
+        ('"a" : [x]', ["x"]),
+        ("\ufeffa: x", "x"),
+        ("a: it's it", "it's it"),
     ],
 )
 def test_the_part_of_yaml_that_is_read(text, value):
     assert parse_yaml(text, "a.yaml") == {"a": value}
+    assert pytest.importorskip("yaml").safe_load(text) == {"a": value}
+
+
+@pytest.mark.parametrize("text", ["a:", "a: null", "a: ~ # none"])
+def test_nothing_is_an_empty_text(text):
+    assert parse_yaml(text, "a.yaml") == {"a": ""}
+    assert pytest.importorskip("yaml").safe_load(text) == {"a": None}
 
 
 @pytest.mark.parametrize("text", ["a: {b: c}", "a: [x", "a: x]", "a: [x,,y]", "a: 1\na: 2", "  a: 1", "a: *x", "- a"])

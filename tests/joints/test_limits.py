@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import jaxkin as jk
+from jaxkin.io.study_drives import small_drive
 
 Z = (0.0, 0.0, 1.0)
 POINT = (0.0, 0.0, 0.0)
@@ -19,8 +20,9 @@ def test_limits_of_one_and_of_several_coordinates():
 @pytest.mark.parametrize(
     ("make", "limits", "message"),
     [
-        (jk.revolute, (1, -1), "low before high"),
-        (jk.revolute, (0, np.nan), "low before high"),
+        (jk.revolute, (1, -1), "lower one first"),
+        (jk.revolute, (0, np.nan), "lower one first"),
+        (jk.revolute, (np.inf, np.inf), "lower one first"),
         (jk.revolute, (1, 2, 3), "two numbers"),
         (jk.revolute, {"z": (0, 1)}, "no coordinate 'z'.*'phi'"),
         (jk.cylindrical, (0, 1), r"coordinates z, phi.*limits=\{'z'"),
@@ -49,5 +51,41 @@ def test_a_study_has_them_in_degrees_and_keeps_them(tmp_path):
     (tmp_path / "study.toml").write_text(said)
     assert jk.load_study(tmp_path / "study.toml").mechanism.joints["arm"].limits == ((-np.pi / 2, np.pi / 4),)
     (tmp_path / "study.toml").write_text(said.replace("[-90, 45]", "[90, 45]"))
-    with pytest.raises(ValueError, match=r"study\.toml.*low before high"):
+    with pytest.raises(ValueError, match=r"study\.toml.*lower one first"):
         jk.load_study(tmp_path / "study.toml")
+
+
+def locked():
+    """A slide that is locked as assembled on an arm, and a turn that is locked elsewhere."""
+    arm = jk.revolute("arm", "base", "arm", point=POINT, axis=Z, limits=(-1, 2))
+    slide = jk.prismatic("slide", "arm", "end", axis=(1, 0, 0), limits=(0, 0))
+    turn = jk.revolute("turn", "end", "tip", point=(1, 0, 0), axis=Z, limits=(0.5, 0.5))
+    return jk.Mechanism.build(fixed=["base"], joints=[arm, slide, turn], unit="m")
+
+
+@pytest.mark.parametrize("suffix", [".json", ".toml", ".urdf", ".xml", ".asmt"])
+def test_a_joint_of_equal_limits_is_locked_in_every_format(tmp_path, suffix):
+    mechanism, path = locked(), tmp_path / f"model{suffix}"
+    if suffix == ".toml":
+        jk.write_study(mechanism, path)
+        back = jk.load_study(path).mechanism
+    else:
+        write = {".json": jk.Mechanism.save, ".urdf": jk.write_urdf, ".xml": jk.write_mjcf, ".asmt": jk.write_asmt}
+        back = jk.load(write[suffix](mechanism, path)).mechanism()
+    for name in ("arm", "slide", "turn"):
+        np.testing.assert_allclose(back.joints[name].limits, mechanism.joints[name].limits, rtol=1e-15)  # degrees
+
+
+def test_a_written_study_leaves_locked_joints_where_they_are(tmp_path):
+    mechanism = jk.load(jk.write_urdf(locked(), tmp_path / "robot.urdf")).mechanism()
+    drive = small_drive(mechanism)
+    assert {drive[name] for name in ("slide.z", "turn.phi")} == {"0:0:21"} and drive["arm.phi"] != "0:0:21"
+
+
+def test_mujoco_holds_locked_joints(tmp_path):
+    mujoco = pytest.importorskip("mujoco")
+    model = mujoco.MjModel.from_xml_path(str(jk.write_mjcf(locked(), tmp_path / "model.xml")))
+    data = mujoco.MjData(model)
+    data.qpos[:] = [0.3, 0.2, 0.4]
+    mujoco.mj_forward(model, data)
+    np.testing.assert_allclose(data.efc_pos[: data.ne], [0.2, 0.4 - 0.5], atol=1e-15)  # rounding

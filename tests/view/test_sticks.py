@@ -3,6 +3,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import jaxkin as jk
+from jaxkin.view.drawing import drawn_parts
 from jaxkin.view.sticks import stick_parts
 
 Z = (0.0, 0.0, 1.0)
@@ -115,3 +116,43 @@ def test_many_joints_of_a_part_meet_in_the_middle():
     corners = star.triangles.reshape(-1, 3)
     assert np.linalg.norm(corners, axis=-1).min() < 0.1
     assert _volume(star.triangles) > 0
+
+
+def robot(folder, **solids):
+    """A crank, a rod and a tip that is fixed to it, of a file that has a box for those of them that are named."""
+    origins = {"crank": ("base", "0 0 0"), "rod": ("crank", "3 0 0"), "tip": ("rod", "0 2 0")}
+    text = f'<robot name="r"><link name="base">{solids.get("base", "")}</link>'
+    for name, (parent, origin) in origins.items():
+        kind = "fixed" if name == "tip" else "continuous"
+        text += f'<link name="{name}">{solids.get(name, "")}</link><joint name="{name} joint" type="{kind}">'
+        text += f'<origin xyz="{origin}"/><parent link="{parent}"/><child link="{name}"/><axis xyz="0 0 1"/></joint>'
+    (folder / "robot.urdf").write_text(f"{text}</robot>")
+    return jk.load(folder / "robot.urdf").mechanism()
+
+
+BOX = '<visual><geometry><box size="1 1 1"/></geometry></visual>'
+
+
+def test_links_without_a_solid_are_bars_between_joints_and_to_the_tip(tmp_path):
+    parts = {part.name: part for part in drawn_parts(robot(tmp_path))}
+    assert [*parts] == ["base", "crank", "rod", "tip"]
+    for name, start, end in (("crank", (0, 0), (3, 0)), ("rod", (3, 0), (3, 0)), ("tip", (3, 0), (3, 2))):
+        low, high = parts[name].box[:, :2]
+        np.testing.assert_allclose([low, high], np.sort([start, end], axis=0), atol=0.2)  # the radius of a joint
+        assert _volume(parts[name].triangles) > 0
+    assert len({round(float(part.box.mean(axis=0)[2]), 6) for part in parts.values()}) > 2  # in layers
+
+
+def test_links_with_a_solid_stay_as_they_are_among_bars(tmp_path):
+    mechanism = robot(tmp_path, crank=BOX)
+    parts = {part.name: part for part in drawn_parts(mechanism)}
+    np.testing.assert_array_equal(parts["crank"].box, [[-0.5] * 3, [0.5] * 3])
+    np.testing.assert_allclose(parts["tip"].box[:, :2], [[3, 0], [3, 2]], atol=0.2)
+    assert abs(parts["tip"].box.mean(axis=0)[2]) < 1e-12  # beside solids, bars lie where their joints are
+    assert "no file" not in str(parts["crank"].notes) and not parts["tip"].is_solid
+
+
+def test_a_robot_without_joints_is_drawn(tmp_path):
+    (tmp_path / "robot.urdf").write_text('<robot name="r"><link name="a"/></robot>')
+    (part,) = drawn_parts(jk.load(tmp_path / "robot.urdf").mechanism())
+    assert len(part.triangles) == 12

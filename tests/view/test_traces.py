@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import trimesh
 
+import jaxkin as jk
 from jaxkin.geometry.part import Part
 from jaxkin.view.scene import make_scene
 from jaxkin.view.traces import given_marks
@@ -91,3 +92,13 @@ def test_everything_drawn_lies_within_the_bounds(four_bar):
     for part in scene.parts:
         corners = scene.view.project(scene.moved(part, part.triangles, scene.closed))
         assert (corners >= low - 1e-9).all() and (corners <= high + 1e-9).all()
+
+
+def test_where_two_parts_are_fixed_together_has_no_path():
+    """Here that is the origin, far from the parts."""
+    hinge = jk.revolute("A", "ground", "arm", point=(5, 0, 0), axis=(0, 0, 1))
+    joints = [hinge, jk.fixed("F", "arm", "hand"), jk.revolute("B", "hand", "tip", point=(7, 0, 0), axis=(0, 0, 1))]
+    mechanism = jk.Mechanism.build(fixed=["ground"], joints=joints)
+    angles = np.linspace(0, 1, 5)
+    scene = make_scene(mechanism.sweep({"A": angles, "B": angles}))
+    assert scene.traces and all(np.linalg.norm(trace.path[0, :2]) > 4 for trace in scene.traces)
