@@ -21,9 +21,9 @@ from jaxkin.contacts.frames import contact_frames
 from jaxkin.contacts.reason import reason
 from jaxkin.contacts.region import ContactRegion, contact_region
 from jaxkin.contacts.states import CONTACT_STATES, ContactState
-from jaxkin.contacts.tolerance import NEAR, Tolerance, default_length, reach
+from jaxkin.contacts.tolerance import NEAR, USUAL_LENGTH, Tolerance, default_length, outline_length, reach
 from jaxkin.contacts.touch import Touch
-from jaxkin.geometry.part import Face, Part
+from jaxkin.geometry.part import Face, Part, size
 from jaxkin.geometry.pose import Vector
 
 KINDS = ("plane", "cylinder", "cone", "sphere")
@@ -40,25 +40,28 @@ def find_contacts(
     """Find all contacts between the parts in their assembled pose.
 
     `length` is the gap up to which surfaces count as touching, in the unit of the parts; by default 1e-5 of the
-    diagonal of the assembly (see `default_length`), so that the unit does not matter; a larger one loses no contact.
-    `angle`, radians, is that up to which directions count as parallel, by default 1e-4. `fit` is the clearance,
-    relative to the radius (0.02 by default), up to which a pin fills its hole (e), or a ball its bore (j) or its socket
-    (o); with a larger clearance the surfaces are in contact only where they touch along a line or at a point. Two faces
-    that miss a state by little more than the tolerances, or meet only along the edge of one of them, are listed in
-    `near_misses`; nothing is guessed. `progress(done, total)` is called after each pair of parts whose boxes meet.
+    diagonal of the assembly, so that the unit does not matter, or more where the numbers of the files are rounded so
+    much (see `default_length`), which the notes then tell; a larger one loses no contact. `angle`, radians, is that up
+    to which directions count as parallel, by default 1e-4. `fit` is the clearance, relative to the radius (0.02 by
+    default), up to which a pin fills its hole (e), or a ball its bore (j) or its socket (o); with a larger clearance the
+    surfaces are in contact only where they touch along a line or at a point. Two faces that miss a state by little more
+    than the tolerances, or meet only along the edge of one of them, are listed in `near_misses`; nothing is guessed.
+    `progress(done, total)` is called after each pair of parts whose boxes meet.
     """
     notes = [f"{part.name}: {note}" for part in parts for note in part.notes]
     if sum(bool(part.faces) for part in parts) < 2:
         return Contacts((), notes=tuple(notes))
-    default = default_length(parts)
-    tolerance = Tolerance(default if length is None else length, angle, fit, least_length=default)
-    margin = NEAR * tolerance.length
+    default, outlines = default_length(parts), outline_length(parts)
+    if length is None and default > USUAL_LENGTH * size(parts):
+        notes.append(_rounded(parts, default))
+    tolerance = Tolerance(default if length is None else length, outlines, angle, fit)
+    margin = max(NEAR * tolerance.length, outlines)
     parts = tuple(part for part in parts if part.faces)
     boxes = [np.stack([face_box(face) for face in part.faces]) for part in parts]
-    outlines = np.stack([np.stack([box[:, 0].min(axis=0), box[:, 1].max(axis=0)]) for box in boxes])
+    around = np.stack([np.stack([box[:, 0].min(axis=0), box[:, 1].max(axis=0)]) for box in boxes])
     contacts: list[Contact] = []
     near_misses: list[NearMiss] = []
-    pairs = overlapping(outlines, margin)
+    pairs = overlapping(around, margin)
     for done, (i, j) in enumerate(pairs, start=1):
         tol = tolerance.between(parts[i], parts[j])
         found = []
@@ -71,11 +74,20 @@ def find_contacts(
         near_misses += _worth_telling([result for result in found if isinstance(result, NearMiss)], here)
         if len(near) and not any(found):
             one, two = _with_faces(parts[i], near[:, 0]), _with_faces(parts[j], near[:, 1])
-            if note := edge_note(one, two, tolerance.length):
+            if note := edge_note(one, two, max(tolerance.length, outlines)):
                 notes.append(note)
         if progress:
             progress(done, len(pairs))
     return Contacts(tuple(contacts), tuple(near_misses), tuple(notes))
+
+
+def _rounded(parts: tuple[Part, ...], length: float) -> str:
+    """Tell that gaps are not seen up to a length, since the numbers of a file are rounded."""
+    worst = max(parts, key=lambda part: part.resolution)
+    return (
+        f"gaps of up to {length:.2g} count as none: the place of {worst.name!r} is rounded by {worst.resolution:.2g}, "
+        "so far from the origin: export nearer to it, or give length= a smaller value"
+    )
 
 
 def _with_faces(part: Part, indices: Int[np.ndarray, " faces"]) -> Part:
@@ -152,11 +164,12 @@ def _region(state: ContactState, touch: Touch, faces: tuple[Face, Face], tol: To
 
     It must be wide and long beside a length: that of the tolerance, or else one that the touch itself fits within.
     """
-    region = contact_region(state.region, touch, *faces, tol.length)
+    length = max(tol.length, tol.least_length)
+    region = contact_region(state.region, touch, *faces, length)
     if region is not None and region.inside:
         return region
     needed = max(tol.least_length, reach(touch, 0.0 if region is None else region.extent))
-    closer = contact_region(state.region, touch, *faces, needed) if needed < tol.length else None
+    closer = contact_region(state.region, touch, *faces, needed) if needed < length else None
     return closer if closer is not None and closer.inside else region
 
 

@@ -10,6 +10,8 @@ from jaxkin.contacts.touch import Touch
 from jaxkin.geometry.part import Part, size
 from jaxkin.geometry.surfaces import Surface
 
+USUAL_LENGTH = 1e-5
+"""Length tolerance over the diagonal of the assembly, where the numbers of the files are known well enough."""
 NEAR = 100.0
 """Largest gap that is reported, over the length tolerance: by default 1e-3 of the size of the assembly, less than gaps
 that are there on purpose."""
@@ -28,16 +30,16 @@ class Tolerance:
 
     length: float
     """Largest gap that counts as touching, in the unit of the assembly."""
+    least_length: float
+    """Length with which the region of a touch is judged at the strictest, in the unit of the assembly: see
+    `outline_length`. Faces touch wherever they do within any length from this one to `length`, so that a larger
+    `length` loses no contact."""
     angle: float = 1e-4
     """Largest angle between directions that count as parallel, radians."""
     fit: float = 0.02
     """Largest clearance, over the radius, with which a pin fills its hole and a ball its socket."""
     near_length: float = 0.0
     """Largest gap that is reported as a near miss, in the unit of the assembly."""
-    least_length: float = np.inf
-    """Length with which the region of a touch is judged at the strictest, in the unit of the assembly: the default of
-    `length`. Faces touch wherever they do within any length from this one to `length`, so that a larger `length` loses
-    no contact."""
 
     def between(self, one: Part, other: Part) -> Tolerance:
         """Return these tolerances with `near_length` set for two given parts."""
@@ -72,12 +74,13 @@ def reach(touch: Touch, extent: float) -> float:
 
 
 def default_length(parts: tuple[Part, ...]) -> float:
-    """Choose the length tolerance: 1e-5 of the diagonal of the assembly, or 1e-6 of its largest coordinate if larger.
+    """Choose the length tolerance: 1e-5 of the diagonal of the assembly, or what rounding leaves of two surfaces."""
+    return max(USUAL_LENGTH * size(parts), 2 * max(part.resolution for part in parts))
 
-    The second is a few roundings of a coordinate in float32, in which placements are read.
-    """
-    farthest = max(float(np.abs(part.box).max()) for part in parts)
-    return max(1e-5 * size(parts), 1e-6 * farthest)
+
+def outline_length(parts: tuple[Part, ...]) -> float:
+    """Choose the length within which outlines of faces are known: as `default_length`, but of corners of triangles."""
+    return max(USUAL_LENGTH * size(parts), 2 * max(part.vertex_resolution for part in parts))
 
 
 def smaller_radius(s1: Surface, s2: Surface) -> float:

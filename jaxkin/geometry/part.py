@@ -59,8 +59,10 @@ class Part:
     notes: tuple[str, ...] = field(default=())
     """Messages about faces of this part that could not be read as one of the four surfaces."""
     vertex_resolution: float = 0.0
-    """Largest rounding error, a length, of the vertices that the surfaces were fitted to; 0 where the file holds the
-    surfaces themselves."""
+    """Largest rounding error, a length, of the corners of the triangles."""
+    surface_resolution: float | None = None
+    """Largest rounding error, a length, of where its surfaces lie, as the file holds them; None where they were fitted
+    to the corners of the triangles."""
     path: tuple[str, ...] = ()
     """Names of the sub-assemblies that contain the part, outermost first, without the assembly of the whole file."""
     original_name: str = ""
@@ -75,6 +77,11 @@ class Part:
         """Lowest and highest corner of the bounding box."""
         corners = self.triangles.reshape(-1, 3)
         return np.stack([corners.min(axis=0), corners.max(axis=0)])
+
+    @property
+    def resolution(self) -> float:
+        """Largest rounding error, a length, of where its surfaces lie, fitted ones too."""
+        return self.vertex_resolution if self.surface_resolution is None else self.surface_resolution
 
     @cached_property
     def outermost(self) -> Float[np.ndarray, "corners 3"]:
@@ -108,10 +115,16 @@ def scaled(part: Part, factor: float) -> Part:
     faces = tuple(
         replace(face, surface=face.surface.scaled(factor), triangles=factor * face.triangles) for face in part.faces
     )
-    resolution = factor * part.vertex_resolution
     inertial = None if part.inertial is None else part.inertial.in_unit(factor)
     triangles = factor * part.triangles
-    return replace(part, faces=faces, triangles=triangles, vertex_resolution=resolution, inertial=inertial)
+    return replace(
+        part,
+        faces=faces,
+        triangles=triangles,
+        vertex_resolution=factor * part.vertex_resolution,
+        surface_resolution=None if part.surface_resolution is None else factor * part.surface_resolution,
+        inertial=inertial,
+    )
 
 
 def size(parts: tuple[Part, ...]) -> float:

@@ -131,7 +131,8 @@ class _Writer:
             low, high = each.limits
             if low == high:  # which MuJoCo takes for no range
                 held = [low, *[0.0] * LARGEST_POWER]
-                SubElement(self.equality, "joint", name=f"{each.name} locked", joint1=each.name, polycoef=written(*held))
+                name, numbers = f"{each.name} locked", written(*held)
+                SubElement(self.equality, "joint", name=name, joint1=each.name, polycoef=numbers)
             elif np.isfinite(each.limits).any():
                 attributes["range"] = written(*np.clip(each.limits, -UNLIMITED, UNLIMITED))
             SubElement(body, "joint", attributes)

@@ -18,6 +18,7 @@ from jaxkin.io.step_check import far_away, missing
 from jaxkin.io.step_colors import one_color_each
 from jaxkin.io.step_convert import convert
 from jaxkin.io.step_glb import Instance, instances
+from jaxkin.io.step_rounding import corner_rounding, place_rounding, text_rounding
 from jaxkin.io.step_solid import Solid, make_solid
 from jaxkin.io.step_tree import nameless_occurrences, placed_parts
 from jaxkin.io.step_unit import length_unit, uncertainty
@@ -57,7 +58,7 @@ def read_step(
     limit = TimeLimit.start(path, seconds)
     text = data.decode("latin-1")
     unit_name, metres = length_unit(text, path.name)
-    off = uncertainty(text)
+    off, relative = uncertainty(text), text_rounding(text)
     placed = placed_parts(text, path.name)
     found, defects = _instances(one_color_each(text).encode("latin-1"), nameless_occurrences(text), limit)
     defects += missing(text, placed, found) + far_away(found)
@@ -68,10 +69,19 @@ def read_step(
         limit.remaining()
         if (key := instance.mesh.key) not in solids:
             solids[key] = make_solid(instance.mesh, metres, off)
-        pose = instance.pose.copy()
+        pose = instance.pose
         pose[:3, 3] /= metres
         part, damages = solids[key].placed(name, pose, instance.color)
-        parts.append(replace(part, path=instance.path, original_name=next(iter(_given(instance)), "")))
+        rounded = place_rounding(instance, relative) / metres
+        parts.append(
+            replace(
+                part,
+                path=instance.path,
+                original_name=next(iter(_given(instance)), ""),
+                vertex_resolution=rounded + corner_rounding(instance) / metres,
+                surface_resolution=rounded,
+            )
+        )
         defects += [f"{name!r}: {damage}" for damage in damages]
         if progress:
             progress(len(parts), len(found))

@@ -12,17 +12,15 @@ from jaxkin.geometry.pose import Points, Pose, apply
 from jaxkin.geometry.shells import open_loops, volume, wrong_side
 from jaxkin.geometry.weld import weld
 from jaxkin.io.step_glb import Instance
+from jaxkin.io.step_rounding import SINGLE
 from jaxkin.io.step_side import Triangles, areas
 
 _CUT_SAMPLES = 24
 """Triangles of a part at which it is looked whether it cuts itself."""
 
 MAX_FAR = 2e4
-"""Distance of a part from an origin over its size up to which single precision leaves its place right to a thousandth
-of its size. Small screws of an aileron are 6e2 of their size away."""
-
-_SINGLE = 6e-8
-"""Rounding of single precision, relative."""
+"""Distance of a part from an origin over its size up to which single precision leaves it right to a thousandth of its
+size. Small screws of an aileron are 6e2 of their size away."""
 
 _OUTER = re.compile(r"\b(?:MANIFOLD_SOLID_BREP|BREP_WITH_VOIDS|FACETED_BREP)\s*\(\s*'(?:[^']|'')*'\s*,\s*#(\d+)")
 
@@ -77,8 +75,8 @@ def far_away(found: Sequence[Instance]) -> list[str]:
         return []
     name = next(filter(None, worst.names), "without a name")
     return [
-        f"the part {name!r} is {least:.2g} times its size from the origin, so that its place is right to "
-        f"{least * _SINGLE:.1g} of its size only: export it nearer to the origin"
+        f"the part {name!r} is {least:.2g} times its size from the origin, so that it is right to "
+        f"{least * SINGLE:.1g} of its size only: export it nearer to the origin"
     ]
 
 

@@ -9,8 +9,9 @@ import json
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
 from hashlib import sha256
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -43,6 +44,13 @@ class Mesh:
             content.update(array.tobytes())
         return content.digest()
 
+    @cached_property
+    def outline(self) -> Float[np.ndarray, "8 3"]:
+        """Corners of the bounding box."""
+        corners = self.triangles.reshape(-1, 3) if len(self.triangles) else np.zeros((1, 3))
+        box = np.stack([corners.min(axis=0), corners.max(axis=0)])
+        return np.stack([box[list(ends), range(3)] for ends in product((0, 1), repeat=3)])
+
 
 @dataclass(frozen=True, eq=False)
 class Instance:
@@ -52,12 +60,17 @@ class Instance:
     """Of the instance and of the product; either may be empty or made up by a translator."""
     path: tuple[str, ...]
     """Names of the assemblies that the instance is in, below that of the whole file, outermost first."""
-    pose: Pose
-    """From the frame of the mesh to the world: rigid to float64, right to float32."""
+    places: tuple[Pose, ...]
+    """Of the assemblies that the instance is in, and of itself, outermost first: rigid to float64, right to float32."""
     mesh: Mesh
     color: Color | None
     complete: bool
     """False where triangles are missing: cascadio names the faces of the first colour of a mesh only."""
+
+    @property
+    def pose(self) -> Pose:
+        """From the frame of the mesh to the world."""
+        return reduce(np.matmul, self.places, np.eye(4))
 
 
 def instances(glb: bytes, products: Mapping[str, str] | None = None) -> Iterator[Instance]:
@@ -69,15 +82,16 @@ def instances(glb: bytes, products: Mapping[str, str] | None = None) -> Iterator
     tree, binary = json.loads(glb[20 : 20 + length]), glb[28 + length :]
     roots = tree["scenes"][tree.get("scene", 0)].get("nodes", [])
     read: dict[str, Mesh] = {}  # by the arrays, which all instances of a product name
-    todo = [(node, np.eye(4), (), inner) for node, inner in reversed(_inside(tree, roots, (), products or {}))]
+    todo: list[tuple[int, tuple[Pose, ...], tuple[str, ...], tuple[str, ...]]]
+    todo = [(node, (), (), inner) for node, inner in reversed(_inside(tree, roots, (), products or {}))]
     if len(roots) == 1:  # the assembly of the file, whose name tells no part from another
-        todo = [(roots[0], np.eye(4), (), ())]
+        todo = [(roots[0], (), (), ())]
     while todo:
         index, above, path, inner = todo.pop()
         node = tree["nodes"][index]
-        pose = above @ _rigid(node)
+        places = (*above, _rigid(node)) if "matrix" in node else above
         below = _inside(tree, node.get("children", []), inner, products or {})
-        todo += [(child, pose, inner, deeper) for child, deeper in reversed(below)]
+        todo += [(child, places, inner, deeper) for child, deeper in reversed(below)]
         mesh: dict[str, Any] = tree["meshes"][node["mesh"]] if "mesh" in node else {"primitives": []}
         primitives = [primitive for primitive in mesh["primitives"] if primitive.get("mode", 4) == 4]
         if primitives:
@@ -85,7 +99,7 @@ def instances(glb: bytes, products: Mapping[str, str] | None = None) -> Iterator
             arrays = repr([_arrays(primitive) for primitive in primitives])
             if arrays not in read:
                 read[arrays] = _mesh(tree, binary, primitives)
-            yield Instance(names, path, pose, read[arrays], *_color(tree, primitives))
+            yield Instance(names, path, places, read[arrays], *_color(tree, primitives))
 
 
 def _inside(
@@ -99,7 +113,7 @@ def _inside(
 
 def _rigid(node: dict[str, Any]) -> Pose:
     """Find the nearest rigid pose to the float32 placement of a node."""
-    pose = np.array(node.get("matrix", np.eye(4).ravel()), float).reshape(4, 4).T
+    pose = np.array(node["matrix"], float).reshape(4, 4).T
     left, stretch, right = np.linalg.svd(pose[:3, :3])
     if np.abs(stretch - 1).max() > 1e-4 or np.linalg.det(left @ right) < 0:
         raise ValueError(

@@ -15,12 +15,12 @@ from jaxkin.joints.regularise import Noise
 def noise_of(parts: Sequence[Part], contacts: Sequence[Contact]) -> Noise:
     """Estimate the noise of contacts: that of single precision, more where surfaces were fitted to few near vertices.
 
-    See `fit_uncertainty`: only parts with a `vertex_resolution` have fitted surfaces.
+    See `fit_uncertainty`: parts whose file holds the surfaces themselves have a `surface_resolution`.
     """
     faces = {
         (part.name, face.name): (face, part.vertex_resolution)
         for part in parts
-        if part.vertex_resolution
+        if part.vertex_resolution and part.surface_resolution is None
         for face in part.faces
     }
     touching = dict.fromkeys(key for contact in contacts for key in zip(contact.parts, contact.faces, strict=True))

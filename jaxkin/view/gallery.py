@@ -11,7 +11,7 @@ import numpy as np
 
 from jaxkin._files import whole
 from jaxkin.contacts.contact import Contact
-from jaxkin.contacts.tolerance import default_length
+from jaxkin.contacts.tolerance import outline_length
 from jaxkin.geometry.part import Part
 from jaxkin.view.callouts import COLORS, draw_contacts
 from jaxkin.view.drawing import PALETTE
@@ -41,7 +41,7 @@ def draw_gallery(assembly: Assembly, path: Path | str, *, contacts: Sequence[Con
         raise ValueError(f"{assembly.source} has no contacts to draw")
     faces = {(part.name, face.name): face for part in assembly.parts for face in part.faces}
     parts = {part.name: part for part in assembly.parts}
-    tolerance = default_length(assembly.parts)
+    tolerance = outline_length(assembly.parts)
     entries = legend_of_regions(contacts)
     columns = min(GALLERY_COLUMNS, len(contacts))
     pairs = [[parts[name] for name in contact.parts] for contact in contacts]

@@ -11,7 +11,7 @@ import numpy as np
 
 from jaxkin._files import whole
 from jaxkin.contacts.contact import Contact
-from jaxkin.contacts.tolerance import default_length
+from jaxkin.contacts.tolerance import outline_length
 from jaxkin.geometry.units import unit_name
 from jaxkin.view.callouts import CHAIN, COLORS, draw_axes, draw_contacts, draw_states
 from jaxkin.view.drawing import DISTINCT, FIXED_COLOR, body_colors, body_label, drawn_solids, told_apart
@@ -80,7 +80,7 @@ def _size(assembly: Assembly) -> float:
 
 def _regions(assembly: Assembly, contacts: Sequence[Contact]) -> list[tuple[Region, Contact]]:
     faces = {(part.name, face.name): face for part in assembly.parts for face in part.faces}
-    tolerance = default_length(assembly.parts)
+    tolerance = outline_length(assembly.parts)
     found = []
     for contact in contacts:
         face1, face2 = (faces[side] for side in zip(contact.parts, contact.faces, strict=True))

@@ -213,9 +213,7 @@ def test_a_part_too_far_away_for_single_precision_is_told(tmp_path):
     assert place
     moved = doubled(1).replace(place[0], f"#{place[1]} = CARTESIAN_POINT('',(1.E8,0.,0.));")
     file.write_text(moved)
-    with pytest.warns(
-        UserWarning, match=r"times its size from the origin, so that its place is right to 0\.\d+ of its"
-    ):
+    with pytest.warns(UserWarning, match=r"times its size from the origin, so that it is right to 0\.\d+ of its"):
         read_step(file)
 
 
