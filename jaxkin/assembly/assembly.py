@@ -20,6 +20,7 @@ from jaxkin.assembly.proposals import Proposal, proposals
 from jaxkin.assembly.to_mechanism import Said, check_said, from_words
 from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.contacts.detect import find_contacts
+from jaxkin.contacts.tolerance import Tolerance
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.units import METRES, unit_name
 from jaxkin.joints.joint import Joint
@@ -27,7 +28,7 @@ from jaxkin.joints.joint import Joint
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
-_DEFAULT_TOLERANCES = (None, 1e-4, 0.02)
+_DEFAULT_TOLERANCES = (None, Tolerance.angle, Tolerance.fit)
 """Those of `Assembly.contacts`."""
 
 
@@ -54,15 +55,15 @@ class Assembly:
         self,
         *,
         length: float | None = None,
-        angle: float = 1e-4,
-        fit: float = 0.02,
+        angle: float = Tolerance.angle,
+        fit: float = Tolerance.fit,
         progress: Callable[[int, int], None] | None = None,
     ) -> Contacts:
         """Find the contacts between the parts, and what is nearly one; found once for each choice of tolerances.
 
-        `length` (in the unit of the assembly; 1e-5 of its diagonal by default), `angle` (radians) and `fit` (clearance
-        over radius) say what still counts as touching: see `jaxkin.contacts.detect.find_contacts`. `progress(done,
-        total)` is called after each pair of parts whose boxes meet.
+        `length` (in the unit of the assembly; 1e-5 of its diagonal by default), `angle` (radians; 1e-4) and `fit`
+        (clearance over radius; 0.02) say what still counts as touching: see `jaxkin.contacts.detect.find_contacts`.
+        `progress(done, total)` is called after each pair of parts whose boxes meet.
         """
         tolerances = (length, angle, fit)
         if tolerances not in self._found:
