@@ -87,8 +87,9 @@ class Assembly:
         """Make the mechanism that the contacts make, with the parts named in `fixed` at rest.
 
         A file that `Mechanism.save` wrote holds the whole mechanism, which nothing need be said about. Where the file
-        is the export of a CAD system, its joints, mates and rigid groups make the mechanism instead, and
-        `fixed` may be left out; contacts do where `contacts` are given, or with `infer=False`.
+        is the export of a CAD system, its joints, mates and rigid groups make the mechanism instead, and `fixed` may be
+        left out; contacts do where `contacts` are given, or with `infer=False`. Without contacts there is nothing that
+        `combine` and `clearance` are about: they are refused then.
 
         Beside exact contacts it takes what solids imply: pins with clearance or interference, bores without a pin,
         bolts and what they hold, parts that only one other holds (`jaxkin.assembly.inference`). Each inference is told
@@ -112,10 +113,12 @@ class Assembly:
           `Mechanism.build`. What files in single precision leave is taken out in any case.
 
         Contacts within a body are left out. Raises ValueError for names that do not exist, entries that are no such
-        groups or pairs, no fixed part, and where a part touches nothing or hangs on nothing.
+        groups or pairs, words that say nothing about what makes the mechanism, no fixed part, and where a part touches
+        nothing or hangs on nothing.
         """
         if self.saved is not None:
-            if fixed or rigid or ignore or joints or exclude or contacts or not (combine and infer):
+            nothing = contacts is None and align is None and clearance is None
+            if fixed or rigid or ignore or joints or exclude or not (nothing and combine and infer):
                 raise ValueError(f"{self.source} holds a whole mechanism: write .mechanism() without other words")
             return self.saved
         if left := _in_full(exclude, self.parts, "exclude"):
