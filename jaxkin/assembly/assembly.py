@@ -20,6 +20,7 @@ from jaxkin.assembly.proposals import Proposal, proposals
 from jaxkin.assembly.to_mechanism import Said, check_said, from_words
 from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.contacts.detect import find_contacts
+from jaxkin.contacts.tolerance import Tolerance
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.units import METRES, unit_name
 from jaxkin.joints.joint import Joint
@@ -27,7 +28,7 @@ from jaxkin.joints.joint import Joint
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
-_DEFAULT_TOLERANCES = (None, 1e-4, 0.02)
+_DEFAULT_TOLERANCES = (None, Tolerance.angle, Tolerance.fit)
 """Those of `Assembly.contacts`."""
 
 
@@ -54,15 +55,15 @@ class Assembly:
         self,
         *,
         length: float | None = None,
-        angle: float = 1e-4,
-        fit: float = 0.02,
+        angle: float = Tolerance.angle,
+        fit: float = Tolerance.fit,
         progress: Callable[[int, int], None] | None = None,
     ) -> Contacts:
         """Find the contacts between the parts, and what is nearly one; found once for each choice of tolerances.
 
-        `length` (in the unit of the assembly; 1e-5 of its diagonal by default), `angle` (radians) and `fit` (clearance
-        over radius) say what still counts as touching: see `jaxkin.contacts.detect.find_contacts`. `progress(done,
-        total)` is called after each pair of parts whose boxes meet.
+        `length` (in the unit of the assembly; 1e-5 of its diagonal by default), `angle` (radians; 1e-4) and `fit`
+        (clearance over radius; 0.02) say what still counts as touching: see `jaxkin.contacts.detect.find_contacts`.
+        `progress(done, total)` is called after each pair of parts whose boxes meet.
         """
         tolerances = (length, angle, fit)
         if tolerances not in self._found:
@@ -86,8 +87,9 @@ class Assembly:
         """Make the mechanism that the contacts make, with the parts named in `fixed` at rest.
 
         A file that `Mechanism.save` wrote holds the whole mechanism, which nothing need be said about. Where the file
-        is the export of a CAD system, its joints, mates and rigid groups make the mechanism instead, and
-        `fixed` may be left out; contacts do where `contacts` are given, or with `infer=False`.
+        is the export of a CAD system, its joints, mates and rigid groups make the mechanism instead, and `fixed` may be
+        left out; contacts do where `contacts` are given, or with `infer=False`. Without contacts there is nothing that
+        `combine` and `clearance` are about: they are refused then.
 
         Beside exact contacts it takes what solids imply: pins with clearance or interference, bores without a pin,
         bolts and what they hold, parts that only one other holds (`jaxkin.assembly.inference`). Each inference is told
@@ -111,10 +113,12 @@ class Assembly:
           `Mechanism.build`. What files in single precision leave is taken out in any case.
 
         Contacts within a body are left out. Raises ValueError for names that do not exist, entries that are no such
-        groups or pairs, no fixed part, and where a part touches nothing or hangs on nothing.
+        groups or pairs, words that say nothing about what makes the mechanism, no fixed part, and where a part touches
+        nothing or hangs on nothing.
         """
         if self.saved is not None:
-            if fixed or rigid or ignore or joints or exclude or contacts or not (combine and infer):
+            nothing = contacts is None and align is None and clearance is None
+            if fixed or rigid or ignore or joints or exclude or not (nothing and combine and infer):
                 raise ValueError(f"{self.source} holds a whole mechanism: write .mechanism() without other words")
             return self.saved
         if left := _in_full(exclude, self.parts, "exclude"):

@@ -45,8 +45,14 @@ def from_export(assembly: Assembly, exported: Exported, said: Said) -> Mechanism
     else with the part nearest to them. Parts are fixed by the user, or else by the export. Each step is told in the
     notes of the mechanism.
 
-    Raises ValueError where neither fixes a part, and for names that do not exist.
+    Raises ValueError where neither fixes a part, for what is about contacts, and for names that do not exist.
     """
+    for word, given in (("combine=False", not said.combine), ("clearance=", said.clearance is not None)):
+        if given:
+            raise ValueError(
+                f"{assembly.source}: {word} is about contacts, and its {exported.system} says what the joints "
+                "are: leave it out, or write infer=False for the joints that contacts make"
+            )
     said = said._replace(fixed=said.fixed or exported.fixed)
     if not said.fixed:
         raise ValueError(

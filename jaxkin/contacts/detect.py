@@ -33,19 +33,19 @@ KINDS = ("plane", "cylinder", "cone", "sphere")
 def find_contacts(
     parts: tuple[Part, ...],
     length: float | None = None,
-    angle: float = 1e-4,
-    fit: float = 0.02,
+    angle: float = Tolerance.angle,
+    fit: float = Tolerance.fit,
     progress: Callable[[int, int], None] | None = None,
 ) -> Contacts:
     """Find all contacts between the parts in their assembled pose.
 
     `length` is the gap up to which surfaces count as touching, in the unit of the parts; by default 1e-5 of the
     diagonal of the assembly (see `default_length`), so that the unit does not matter; a larger one loses no contact.
-    `angle`, radians, is that up to which directions count as parallel. `fit` is the clearance, relative to the radius,
-    up to which a pin fills its hole (e), or a ball its bore (j) or its socket (o); with a larger clearance the surfaces
-    are in contact only where they touch along a line or at a point. Two faces that miss a state by little more than the
-    tolerances, or meet only along the edge of one of them, are listed in `near_misses`; nothing is guessed.
-    `progress(done, total)` is called after each pair of parts whose boxes meet.
+    `angle`, radians, is that up to which directions count as parallel, by default 1e-4. `fit` is the clearance,
+    relative to the radius (0.02 by default), up to which a pin fills its hole (e), or a ball its bore (j) or its socket
+    (o); with a larger clearance the surfaces are in contact only where they touch along a line or at a point. Two faces
+    that miss a state by little more than the tolerances, or meet only along the edge of one of them, are listed in
+    `near_misses`; nothing is guessed. `progress(done, total)` is called after each pair of parts whose boxes meet.
     """
     notes = [f"{part.name}: {note}" for part in parts for note in part.notes]
     if sum(bool(part.faces) for part in parts) < 2:

@@ -41,7 +41,8 @@ Rows = tuple[Float[Array, "poses _"], ...]
 class Rates:
     """Derivatives of a motion with respect to time, of one order. A pytree; every array has the poses first.
 
-    Rates are zero at poses that did not close, and NaN at NONFINITE poses: `motion.status` tells which. At singular
+    Rates are zero at poses that did not close, and NaN at NONFINITE poses: `motion.status` tells which. At MISFIT poses
+    they are those of the nearest joints that agree, right to as much as the given ones disagree. At singular
     poses they are those of least norm, finite but not those of the branch: `print` names them, by `motion.sigma_min`.
     Rates of parts are computed when they are asked for.
     """
@@ -70,8 +71,8 @@ class Rates:
 
     @property
     def closed(self) -> Bool[Array, " poses"]:
-        """Which poses have rates."""
-        return self.motion.closed
+        """Which poses have rates: those on the branch of the assembled pose (`motion.on_branch`), MISFIT ones too."""
+        return self.motion.on_branch
 
     @cached_property
     def coordinates(self) -> Mapping[str, Float[Array, "poses _"]]:
@@ -105,7 +106,7 @@ class Rates:
         return save_rows([f"{name} [{unit}]" for name, unit in zip(names, units, strict=True)], rows, Path(path))
 
     def _rows(self) -> tuple[list[str], list[str], Float[np.ndarray, "coordinates poses"]]:
-        """Names, units and rates of all joint coordinates; NaN at poses that are not closed."""
+        """Names, units and rates of all joint coordinates; NaN at poses that have none (`closed`)."""
         closed, mechanism = np.asarray(self.closed), self.motion.mechanism
         per = "time" if self.order == 1 else f"time^{self.order}"
         names, units, rows = [], [], []

@@ -48,6 +48,10 @@ def read_range(text: str) -> Values:
         raise ValueError(f"displacements must be finite numbers, got {text!r}; write {FORM}")
     if not 1 <= count <= MAX_POSES:
         raise ValueError(f"COUNT must be a number from 1 to {MAX_POSES}, got {count}; write {FORM}")
+    if ranged and count == 1 and numbers[0] != numbers[1]:
+        raise ValueError(
+            f"one pose cannot include both ends of {text!r}; write {numbers[0]:g}, or a COUNT of 2 or more"
+        )
     return np.linspace(numbers[0], numbers[1], count) if ranged else np.array(numbers)
 
 

@@ -6,7 +6,7 @@ equations of each loop, for optimisers outside jaxkin and as a check of the kern
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -31,8 +31,8 @@ class ClosureEquations(NamedTuple):
     residual: Float[Array, " equations"]
     """Twelve entries a loop (Eq. 11), in the order of `structure.loops`. The displacement that is left when the loop
     has been travelled gives nine entries of rotation, its matrix less the unit matrix, row by row; and three of
-    translation, from the start of the loop to its end, over the characteristic length. The norm is the square root of
-    Eq. 12."""
+    translation, from the start of the loop to its end, over the characteristic length of the loop group. The norm is
+    the square root of Eq. 12, as `motion.residual`."""
     jacobian: Float[Array, "equations coordinates"]
     """Derivative of the residual with respect to the coordinates of all joints, one joint after the other."""
     coordinates: tuple[str, ...]
@@ -83,12 +83,12 @@ def closure_residual(
     for joint in joints:
         motions.append(joint_motion(joint, q[None, first : first + joint.freedoms]))
         first += joint.freedoms
-    origins = lax.stop_gradient(jnp.concatenate([jnp.asarray(joint.frames_1)[:, :3, 3] for joint in joints]))
-    centre = jnp.mean(origins, axis=0)
-    radius = jnp.sqrt(jnp.mean(jnp.sum((origins - centre) ** 2, axis=1)))
-    length = jnp.where(radius > 0, radius, 1.0)
+    scales = {}
+    for group in structure.loop_groups:
+        scales |= dict.fromkeys(group.joints, _scale([joints[number] for number in group.joints]))
     rows = [jnp.zeros(0, q.dtype)]
     for loop in structure.loops:
+        centre, length = scales[loop.joints[0][0]]
         travelled = jnp.eye(4, dtype=q.dtype)[:3, :, None]
         for joint, sign in loop.joints:
             travelled = product(travelled, motions[joint] if sign > 0 else inverse(motions[joint]))
@@ -96,3 +96,11 @@ def closure_residual(
         away = left[:3, 3] + left[:3, :3] @ centre
         rows.append(jnp.concatenate([left[:3, :3].ravel(), away / length]))
     return jnp.concatenate(rows)
+
+
+def _scale(joints: Sequence[Joint]) -> tuple[Float[Array, "3"], Float[Array, ""]]:
+    """Compute the centroid and the characteristic length of the joints of a loop group, as the solver does."""
+    origins = lax.stop_gradient(jnp.concatenate([jnp.asarray(joint.frames_1)[:, :3, 3] for joint in joints]))
+    centre = jnp.mean(origins, axis=0)
+    radius = jnp.sqrt(jnp.mean(jnp.sum((origins - centre) ** 2, axis=1)))
+    return centre, jnp.where(radius > 0, radius, 1.0)

@@ -35,7 +35,9 @@ class SolverOptions:
 
     tolerance: float | None = None
     """Largest closure residual of a closed pose (square root of Eq. 12, lengths over the characteristic length), at
-    which a pose is improved no further. None: 1e-12 (2e-6 in float32), and poses improved down to rounding."""
+    which a pose is improved no further. None: 1e-12 (2e-6 in float32), and poses improved down to rounding, which
+    leaves about 1e-15 for each elementary motion (5e-7 in float32): poses above a tolerance less than that are
+    STALLED."""
     method: str = CONTINUATION
     """One of `METHODS`."""
     formulas: bool = True

@@ -12,6 +12,8 @@
 
 - STALLED, whatever the residual: the trace of the branch ran out of steps before it got to the input of the pose
   (`range.polish`). Of several inputs, such a pose is then tried in a straight line (`range.straight_lines`).
+- STALLED in place of CLOSED or JUMPED: correctors improve no pose below the rounding that is left of its residual, and
+  that is above the tolerance (`range.solve_range.find_poses`).
 - STALLED in place of CLOSED or JUMPED: the pose is that of a formula, and whether the motion leads to it is in doubt
   (`closed_form.range_by_formula`). Where JAX traces nothing, the continuation solves the range instead.
 - STALLED in place of UNREACHABLE or JUMPED: the assembled pose is a dead point of the drive (`in_doubt`).
@@ -67,7 +69,8 @@ _MESSAGES = {
     Status.CLOSED: "all loops closed, on the branch of the assembled pose",
     Status.UNREACHABLE: "the loops cannot close for this input: leave it out of the range, or change the lengths",
     Status.JUMPED: "closed, but on another branch than the assembled pose: the range between them cannot be passed",
-    Status.STALLED: "not converged: give more poses in between, or start from a pose that is less singular",
+    Status.STALLED: "not converged: give more poses in between, start from a pose that is less singular, or ask "
+    "for a tolerance that rounding can reach",
     Status.MISFIT: "closed as nearly as the joints agree, on the branch of the assembled pose: the notes of the "
     "mechanism say which of them disagree",
     Status.LIMITED: "all loops closed, on the branch of the assembled pose, but a joint is beyond its limits: keep the "

@@ -44,6 +44,12 @@ def aileron(tmp_path_factory):
         return jk.load(file)
 
 
+@pytest.mark.parametrize("words", [{"combine": False}, {"clearance": 0.5}])
+def test_words_about_contacts_are_refused_where_the_export_says_the_joints(lift_table, words):
+    with pytest.raises(ValueError, match=rf"LiftTable.xml: {next(iter(words))}.* is about contacts, .*infer=False"):
+        lift_table.mechanism(**words)
+
+
 def test_all_joints_of_the_export_are_there_without_a_word(lift_table):
     mechanism = lift_table.mechanism()
     truth = json.loads((DATA / "lift_table.joints.json").read_text())

@@ -235,6 +235,7 @@ FILES = {
         ([FOURBAR, *CRANK, "--drive", "ground-rocker=0:1:6"], ["equal length", "5", "6"]),
         ([FOURBAR, "--fixed", "ground", "--drive", "ground-crank=0,nan,1"], ["ground-crank", "nan"]),
         ([FOURBAR, "--fixed", "ground", "--drive", "ground-crank=0-360"], ["ground-crank=0-360", "START:STOP:COUNT"]),
+        ([FOURBAR, "--fixed", "ground", "--drive", "ground-crank=0:360:1"], ["both ends of '0:360:1'; write 0, or"]),
     ],
 )
 def test_wrong_input_is_one_message_and_leaves_nothing(arguments, said, tmp_path, monkeypatch):

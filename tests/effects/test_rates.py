@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 
 from jaxkin.effects.rates import accelerations, velocities
+from jaxkin.solve.status import Status
 from reference.mechanisms import cardan_shafts, planar_fourbar, rssr_linkage, slider_crank
+from reference.rounding import tilted_fourbar
 
 INPUTS = np.linspace(0.0, 2 * np.pi, 30)
 
@@ -78,6 +80,18 @@ def test_poses_that_do_not_close_have_no_rates():
     assert 0 < np.sum(rates.closed) < len(motion)
     assert np.all(np.asarray(rates.coordinates["D"])[~np.asarray(rates.closed)] == 0)
     assert np.all(np.isfinite(rates.coordinates["D"]))
+
+
+@pytest.mark.long
+def test_misfit_poses_have_rates(tmp_path):
+    """Those of the nearest joints that agree: as right as the joints, whose axes are 1e-4 rad apart."""
+    mechanism, step = tilted_fourbar(1e-4), 1e-3
+    motion = mechanism.sweep({"A": INPUTS})
+    rates = velocities(motion, {"A": 1.0})
+    assert np.any(motion.status == Status.MISFIT) and np.all(rates.closed)
+    ends = [mechanism.sweep({"A": INPUTS + at}).coordinates["D"][:, 0] for at in (-step, step)]
+    np.testing.assert_allclose(rates.coordinates["D"][:, 0], (ends[1] - ends[0]) / (2 * step), atol=1e-3)
+    assert "D.phi" in str(rates) and "nan" not in rates.save(tmp_path / "rates.csv").read_text()
 
 
 @pytest.mark.long

@@ -133,8 +133,9 @@ def test_files_that_hold_no_mechanism_are_refused(tmp_path, text, said):
 
 def test_a_damaged_mechanism_is_refused_and_other_words_too(tmp_path):
     path = linkage().save(tmp_path / "whole.json")
-    with pytest.raises(ValueError, match=r"whole.json holds a whole mechanism: write .mechanism\(\) without"):
-        jk.load(path).mechanism(fixed=["ground"])
+    for words in ({"fixed": ["ground"]}, {"align": 1e-3}, {"clearance": 0.5}, {"contacts": []}, {"infer": False}):
+        with pytest.raises(ValueError, match=r"whole.json holds a whole mechanism: write .mechanism\(\) without"):
+            jk.load(path).mechanism(**words)
     record = json.loads(path.read_text())
     record["linkage"]["joints"][0]["frames_1"] = [[1.0, 2.0]]
     path.write_text(json.dumps(record))

@@ -5,8 +5,9 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
+import jaxkin as jk
 from reference.catalogue import jansen
-from reference.mechanisms import planar_fourbar, rssr_linkage
+from reference.mechanisms import Z, planar_fourbar, rssr_linkage
 
 
 def at_random(mechanism, size, rng):
@@ -41,6 +42,31 @@ def test_a_four_bars_loop_is_open_by_the_chord_of_its_crank():
     assert np.isclose(np.linalg.norm(found.residual[9:]) * length, chord, rtol=1e-12)
     assert np.isclose(np.linalg.norm(found.residual[:9]), 2 * np.sqrt(2) * np.sin(t / 2), rtol=1e-12)
     assert found.coordinates == ("A.phi", "B.phi", "C.phi", "D.phi")
+
+
+@pytest.mark.long
+def test_the_norm_is_the_residual_of_the_solver():
+    """Of poses that cannot close, with loops of two sizes and a joint in no loop."""
+    lengths = {"ground": 40.0, "crank": 20.0, "coupler": 25.0, "rocker": 30.0}
+    small, large = (
+        planar_fourbar(1.0, **{name: k * length for name, length in lengths.items()}).all_joints for k in (1, 9)
+    )
+    beside = [
+        jk.revolute(
+            f"{each.name}2",
+            *(part if part == "ground" else f"{part}2" for part in each.parts),
+            point=each.frames_1[0, :3, 3],
+            axis=Z,
+        )
+        for each in large
+    ]
+    arm = jk.revolute("arm", "rocker", "arm", point=(5e3, 0, 0), axis=Z)
+    mechanism = jk.Mechanism.build(fixed=["ground"], joints=[*small, *beside, arm])
+    motion = mechanism.sweep({"A": np.full(2, 2.0), "A2": np.array([0.1, 3.0])})
+    assert np.all(motion.status == jk.Status.UNREACHABLE)
+    for pose, residual in enumerate(motion.residual):
+        at = {name: rows[pose] for name, rows in motion.coordinates.items()}
+        assert np.isclose(np.linalg.norm(mechanism.closure(at).residual), residual, rtol=1e-9)
 
 
 @pytest.mark.long

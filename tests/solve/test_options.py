@@ -30,6 +30,21 @@ def test_a_shorthand_is_the_option():
     assert 1e-9 < np.max(short.residual) <= 1e-3  # improved no further than asked for
 
 
+@pytest.mark.parametrize(
+    "options",
+    [
+        jk.SolverOptions(tolerance=1e-15, interpolate_from=64),
+        *[jk.SolverOptions(tolerance=1e-15, formulas=formulas) for formulas in (True, False)],
+    ],
+)
+def test_no_closed_pose_is_above_a_tolerance_that_rounding_does_not_reach(options):
+    """Of these poses rounding leaves some below and some above 1e-15: the latter are not closed, nor out of reach."""
+    motion = planar_fourbar(1.0).sweep({"A": np.linspace(0.0, 2 * np.pi, 100)}, options=options)
+    above = np.asarray(motion.residual) > 1e-15
+    assert 0 < np.sum(above) < len(above)
+    np.testing.assert_array_equal(motion.status, np.where(above, jk.Status.STALLED, jk.Status.CLOSED))
+
+
 def test_options_of_running_compile_nothing():
     """Tolerance and cores are no part of the compiled program."""
     mechanism = planar_fourbar(1.0)

@@ -9,15 +9,19 @@ from typing import Any
 
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Bool, Float, Int
 
 from jaxkin._arguments import by_name, check_mechanism, numbers
 from jaxkin._traced import traced
 from jaxkin.effects.forces.drive import drive_forces
 from jaxkin.effects.forces.given import Applied
 from jaxkin.effects.forces.masses import Masses
+from jaxkin.effects.forces.screws import Scale
 from jaxkin.effects.forces.wrenches import STANDARD_GRAVITY, units_of
 from jaxkin.effects.pose_plot import draw_lines, save_rows
+from jaxkin.geometry.movements import is_length
+from jaxkin.geometry.units import METRES
+from jaxkin.linkage.coordinates import coordinates
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
 
@@ -28,11 +32,17 @@ MAX_STEPS = 60
 WITHIN = 1e-12
 """Width of a sign change, or length of a step, over the range of the drive, at which it is refined enough. In float32
 it is the unit of rounding."""
+NO_FORCE = 16
+"""Units of rounding of all weights, times the size for a torque, up to which a drive force counts as none. A four-bar
+in a horizontal plane that is drawn askew has forces of one or two."""
 
 
 @dataclass(frozen=True, eq=False)
 class Equilibrium:
-    """Where a drive is not needed within its range. Prints, draws and saves itself."""
+    """Where a drive is not needed within its range: in single displacements, or everywhere in an interval.
+
+    Prints, draws and saves itself.
+    """
 
     name: str
     """The driven coordinate."""
@@ -40,6 +50,11 @@ class Equilibrium:
     """Its displacements in equilibrium, rising: radians, or the unit of the mechanism."""
     stable: Bool[np.ndarray, " equilibria"]
     """Whether the mechanism comes back from beside it: the drive force grows with the displacement."""
+    unstable: Bool[np.ndarray, " equilibria"]
+    """Whether it moves away from beside it: the drive force falls. Where neither is said, it is not known, as beside a
+    limit of the motion."""
+    indifferent: Float[np.ndarray, "intervals 2"]
+    """Intervals from the first to the last of neighbouring poses of the range, none of which needs a drive."""
     motion: Motion
     """The poses in equilibrium."""
     inputs: Inputs
@@ -49,27 +64,40 @@ class Equilibrium:
 
     def __str__(self) -> str:
         poses = f"{self.inputs[0]:.4g} to {self.inputs[-1]:.4g}"
-        if not len(self.values):
+        lines = [f"  everywhere from {low:.9g} to {high:.9g}, indifferent" for low, high in self.indifferent]
+        lines += [f"  {value:.9g}, {words}" for value, (words, _) in zip(self.values, self._told(), strict=True)]
+        if not lines:
             return f"No equilibrium of {self.name} from {poses}"
-        lines = [f"{len(self.values)} equilibria of {self.name} from {poses}"]
-        lines += [
-            f"  {value:.9g}, {'stable' if stable else 'unstable'}"
-            for value, stable in zip(self.values, self.stable, strict=True)
-        ]
-        return "\n".join(lines)
+        return "\n".join([f"{len(lines)} equilibria of {self.name} from {poses}", *lines])
+
+    def _told(self) -> list[tuple[str, str]]:
+        """Say of each single equilibrium whether it is stable, in words and by a marker."""
+        known = {(True, False): ("stable", "o"), (False, True): ("unstable", "x")}
+        both = zip(self.stable.tolist(), self.unstable.tolist(), strict=True)
+        return [known.get(each, ("not known whether stable", "d")) for each in both]
 
     def plot(self, path: str | Path) -> Path:
         """Draw the drive force over the displacement, with the equilibria, into a picture file; returns its path."""
         label = f"drive force ({units_of(self.motion, self.name)[0]})"
-        marks = [(float(value), "o" if stable else "x") for value, stable in zip(self.values, self.stable, strict=True)]
-        title = "equilibria: o stable, x unstable" if marks else "no equilibrium"
+        marks = [(float(value), marker) for value, (_, marker) in zip(self.values, self._told(), strict=True)]
+        marks += [(float(end), "|") for interval in self.indifferent for end in interval]
+        meant = {"o": "o stable", "x": "x unstable", "d": "diamond not known", "|": "indifferent from | to |"}
+        told = ", ".join(words for marker, words in meant.items() if marker in {marker for _, marker in marks})
+        title = f"equilibria: {told}" if marks else "no equilibrium"
         return draw_lines(
             [self.name], self.forces[None], label, title, Path(path), at=self.inputs, along=self.name, marks=marks
         )
 
     def save(self, path: str | Path) -> Path:
-        """Write the equilibria as comma-separated values, one row each; returns the path."""
-        return save_rows([self.name, "stable"], np.stack([self.values, self.stable.astype(float)]), Path(path))
+        """Write the equilibria as comma-separated values, one row each; returns the path.
+
+        Both ends of an interval have rows, in which, as where it is not known, "stable" is NaN.
+        """
+        stable = np.where(self.stable | self.unstable, self.stable, np.nan)
+        values = np.concatenate([self.values, self.indifferent.ravel()])
+        order = np.argsort(values, kind="stable")
+        stable = np.concatenate([stable, np.full(self.indifferent.size, np.nan)])
+        return save_rows([self.name, "stable"], np.stack([values, stable])[:, order], Path(path))
 
 
 def equilibrium(
@@ -83,9 +111,10 @@ def equilibrium(
     """Find the displacements of one driven coordinate at which its force vanishes at rest.
 
     `drive` gives the range to search, `{"A": np.linspace(0, 2 * np.pi, 73)}`: equilibria are told apart by its steps,
-    and refined to 1e-12 of it, in float32 to rounding. Other arguments are those of `jk.drive_forces`, for all poses
-    alike. Poses must follow each other on the branch of the assembled pose; no equilibrium is found between poses that
-    are not CLOSED.
+    and refined to 1e-12 of it, in float32 to rounding; where neighbouring poses need no drive, as of a linkage in a
+    horizontal plane, the mechanism is indifferent from the first to the last of them. Other arguments are those of
+    `jk.drive_forces`, for all poses alike. Poses must follow each other on the branch of the assembled pose; no
+    equilibrium is found between poses that are not closed (`motion.closed`).
 
     Raises ValueError for drives of several coordinates, for fewer than two poses, inside `jit`, `vmap` and `grad`, and
     as `jk.drive_forces`.
@@ -108,20 +137,42 @@ def equilibrium(
         return np.asarray(next(iter(found.forces.values())), float)[: len(values)]
 
     forces = force(inputs)
-    at_zero = np.flatnonzero(forces == 0)
+    eps, name = float(jnp.finfo(float).eps), next(iter(coordinates(mechanism.linkage, [key])))
+    none = np.abs(forces) <= NO_FORCE * eps * _weight(mechanism, name, masses, gravity)
+    indifferent, at_zero = _runs(none)
+    forces = np.where(none, 0.0, forces)
     changing = np.flatnonzero(forces[:-1] * forces[1:] < 0)
     ends = inputs[changing], inputs[changing + 1], forces[changing], forces[changing + 1]
-    eps = float(jnp.finfo(float).eps)
     refined, vanishes = _refined(force, *ends, max(WITHIN, eps) * np.ptp(inputs))
     values = np.concatenate([inputs[at_zero], refined[vanishes]])
     # of a central difference: the cube root of rounding
     step = eps ** (1 / 3) * np.ptp(inputs)
     beside = force(np.concatenate([values - step, values + step])) if len(values) else np.zeros(0)
-    growing = beside[len(values) :] > beside[: len(values)]
+    growth = beside[len(values) :] - beside[: len(values)]
     order = np.argsort(values)
     motion = mechanism.sweep({key: values[order]})
-    name = next(iter(motion.inputs))
-    return Equilibrium(name, values[order], growing[order], motion, inputs, forces)
+    return Equilibrium(
+        name, values[order], growth[order] > 0, growth[order] < 0, inputs[indifferent], motion, inputs, forces
+    )
+
+
+def _weight(mechanism: Mechanism, name: str, masses: Masses | None, gravity: Any) -> float:
+    """Add up all weights, newtons; for an angle times their distances from the middle and its size, newton metres."""
+    if masses is None:
+        return 0.0
+    size, middle = Scale.of(mechanism.linkage)
+    arms = np.linalg.norm(np.asarray(masses.centre) - np.asarray(middle), axis=1) + float(size)
+    lever = 1.0 if is_length(name.rpartition(".")[2]) else arms * METRES[mechanism.unit]
+    return float(np.linalg.norm(np.asarray(gravity, float)) * np.sum(np.asarray(masses.mass) * lever))
+
+
+def _runs(holds: Bool[np.ndarray, " poses"]) -> tuple[Int[np.ndarray, "runs 2"], Int[np.ndarray, " single"]]:
+    """Find where something holds: the first and the last of neighbouring poses, and the poses without such a
+    neighbour."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], holds, [False]]).astype(int)))
+    runs = edges.reshape(-1, 2) - [0, 1]
+    single = runs[:, 0] == runs[:, 1]
+    return runs[~single], runs[single, 0]
 
 
 def _refined(

@@ -77,7 +77,9 @@ def find_poses(
     geometry, lengths = scaled_geometry(system, joints)
     asked = _Range(geometry, inputs / driven(system, lengths), tolerance, shard_count, shard_start, follow_limits)
     poses = _found(system, options, asked)
-    return poses._replace(status=poses.status.astype(jnp.int32))
+    # correctors take what rounding leaves for closed, whatever tolerance was asked for
+    rough = is_closed(poses.status) & (poses.residual_norm > tolerance.max_residual)
+    return poses._replace(status=jnp.where(rough, Status.STALLED.value, poses.status).astype(jnp.int32))
 
 
 def shard(

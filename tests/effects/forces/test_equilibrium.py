@@ -4,6 +4,7 @@ import jax
 import numpy as np
 import pytest
 from scipy.optimize import brentq
+from scipy.spatial.transform import Rotation
 
 import jaxkin as jk
 from jaxkin.effects.forces.equilibrium import _refined
@@ -24,7 +25,7 @@ def test_a_pendulum_hangs_or_stands():
     found = jk.equilibrium(mechanism, {"A": np.linspace(-3.0, 3.0, 25)}, own, gravity=(0, -9.81, 0))
     start = np.arctan2(0.4, 0.3)
     np.testing.assert_allclose(found.values, [-np.pi / 2 - start, np.pi / 2 - start], atol=1e-9)
-    assert found.stable.tolist() == [True, False]
+    assert found.stable.tolist() == [True, False] and found.unstable.tolist() == [False, True]
     assert found.name == "A.phi" and "2 equilibria of A.phi from -3 to 3" in str(found) and "unstable" in str(found)
     np.testing.assert_allclose(found.motion.inputs["A.phi"], found.values)
 
@@ -73,6 +74,36 @@ def test_a_fourbar_stands_where_its_potential_is_extreme():
     expected = [brentq(slope, value - 0.01, value + 0.01, xtol=1e-13) for value in found.values]
     assert len(expected) == 2 and found.stable.sum() == 1
     np.testing.assert_allclose(found.values, expected, atol=1e-9)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("tilt", [0.0, 1.0])
+def test_a_linkage_in_a_horizontal_plane_is_indifferent(tilt, tmp_path):
+    """Also where it is drawn askew, so that rounding decides of what sign its forces are."""
+    turn = Rotation.from_rotvec([tilt, 0.3 * tilt, 0.0]).as_matrix()
+    joints = [
+        jk.revolute(each.name, *each.parts, point=turn @ each.frames_1[0][:3, 3], axis=turn @ Z)
+        for each in planar_fourbar().all_joints
+    ]
+    mechanism = jk.Mechanism.build(fixed=["ground"], joints=joints, unit="mm")
+    given = {name: jk.Mass(own.mass, turn @ own.centre) for name, own in FOURBAR_MASSES.items()}
+    own = jk.masses(mechanism, given=given)
+    found = jk.equilibrium(mechanism, {"A": np.linspace(0, 1, 11)}, own, gravity=turn @ [0.0, 0.0, -9.81])
+    assert len(found.values) == 0 and found.indifferent.tolist() == [[0.0, 1.0]]
+    assert "everywhere from 0 to 1" in str(found)
+    assert found.save(tmp_path / "all.csv").read_text().splitlines()[1:] == ["0,0,nan", "1,1,nan"]
+    found.plot(tmp_path / "all.png")
+
+
+@pytest.mark.long
+def test_beside_a_limit_it_is_not_known_whether_an_equilibrium_is_stable():
+    """A crank that only rocks, whose torque vanishes so near to its limit that a pose beside it is beyond."""
+    rocking = planar_fourbar(1.0, ground=40.0, crank=20.0, coupler=25.0, rocker=30.0)
+    end = jk.limits(rocking, "A").upper.value
+    spring = jk.joint_spring("A", 1.0, rest=end - 1e-9)
+    found = jk.equilibrium(rocking, {"A": np.linspace(0.0, end - 1e-10, 20)}, applied=spring)
+    np.testing.assert_allclose(found.values, [end - 1e-9], atol=1e-10)
+    assert not found.stable[0] and not found.unstable[0] and "not known" in str(found)
 
 
 @pytest.mark.filterwarnings("ignore:jaxkin computes in float32")
