@@ -43,10 +43,10 @@ def find_contacts(
     diagonal of the assembly, so that the unit does not matter, or more where the numbers of the files are rounded so
     much (see `default_length`), which the notes then tell; a larger one loses no contact. `angle`, radians, is that up
     to which directions count as parallel, by default 1e-4. `fit` is the clearance, relative to the radius (0.02 by
-    default), up to which a pin fills its hole (e), or a ball its bore (j) or its socket (o); with a larger clearance the
-    surfaces are in contact only where they touch along a line or at a point. Two faces that miss a state by little more
-    than the tolerances, or meet only along the edge of one of them, are listed in `near_misses`; nothing is guessed.
-    `progress(done, total)` is called after each pair of parts whose boxes meet.
+    default), up to which a pin fills its hole (e), or a ball its bore (j) or its socket (o); with a larger clearance
+    the surfaces are in contact only where they touch along a line or at a point. Two faces that miss a state by little
+    more than the tolerances, or meet only along the edge of one of them, are listed in `near_misses`; nothing is
+    guessed. `progress(done, total)` is called after each pair of parts whose boxes meet.
     """
     notes = [f"{part.name}: {note}" for part in parts for note in part.notes]
     if sum(bool(part.faces) for part in parts) < 2:
