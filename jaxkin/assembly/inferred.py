@@ -3,28 +3,22 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from jaxkin.assembly.caps import told_caps
-from jaxkin.assembly.guides import is_guide
 from jaxkin.assembly.ignored_contacts import without
-from jaxkin.assembly.inference.bores import NEAR_ANGLE
 from jaxkin.assembly.inference.infer import infer
 from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.known import Pair
 from jaxkin.assembly.inference.springs import Spring, springs
 from jaxkin.assembly.resting import leaves_all_moving, resting
+from jaxkin.assembly.seats import seats_of, useful_freedoms
 from jaxkin.assembly.to_mechanism import Said, from_words, told_by
 from jaxkin.contacts.contact import Contact, Contacts
-from jaxkin.geometry.part import size
-from jaxkin.geometry.pose import Vector
-from jaxkin.joints.evidence import Evidence, EvidenceKind
-from jaxkin.joints.joint import Joint
+from jaxkin.joints.evidence import EvidenceKind
 from jaxkin.joints.kinds import JointKind
-from jaxkin.mobility.open_loops import opening
 from jaxkin.topology.bodies import bodies
 from jaxkin.topology.components import connected
 
@@ -37,8 +31,6 @@ _KEPT = (EvidenceKind.NEAREST, EvidenceKind.BOLT_PATTERN)
 plates that are bolted together do not move."""
 TOLD = "inferred beside exact contacts"
 """How the note begins that counts inferences."""
-_NEAR = 1e-4
-"""Distance of two axes that are one, over the size of the assembly."""
 _ROUNDS = 3
 """Times that seats are looked for: what is one body by some may be seated on others."""
 _LYING = 6
@@ -82,11 +74,14 @@ def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said, tubes
             for some in (used, contacts)
         )
 
-    def made(seats: Sequence[Inference]) -> tuple[Mechanism, list[Inference], int]:
-        """Make the mechanism with its inferences; and count what is of use before slides are stopped."""
+    def made(seats: Sequence[Inference], apart: Sequence[Pair] = ()) -> tuple[Mechanism, list[Inference], int]:
+        """Make the mechanism with its inferences, with the pairs of parts in `apart` never one body; and count what is
+        of use before slides are stopped."""
         rigid = [*said.rigid, *(each.parts for each in seats)]
         loose = {each.part for each in tubes}
-        found, levels = infer(assembly._measured, used, said.fixed, rigid, said.joints, ignored, said.clearance, loose)
+        found, levels = infer(
+            assembly._measured, used, said.fixed, rigid, said.joints, ignored, said.clearance, loose, apart
+        )
         found = [*seats, *found]
         plain = from_words(assembly, contacts, said, found)
         return *_stopped(assembly, contacts, said, plain, found, levels), _not_idle(plain)
@@ -95,7 +90,7 @@ def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said, tubes
     mechanism, found, plainly = made(seats)
     inexact = len(found) > len(seats)
     for _ in range(_ROUNDS):
-        seats += (new := _seats(mechanism, inexact, {each.part.name for each in assembly._measured.closed_bearings}))
+        seats += (new := seats_of(mechanism, inexact, {each.part.name for each in assembly._measured.closed_bearings}))
         if not new:
             break
         other, more, count = made(seats)
@@ -113,8 +108,16 @@ def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said, tubes
         if useful_freedoms(other) and leaves_all_moving(mechanism, other, held):
             seats, mechanism, found = [*seats, *held], other, more
     moves = useful_freedoms(mechanism) or _has_free_slide(mechanism)
-    unlocked = None if not found or moves else _unlocked(assembly, contacts, said, found)
-    told = unlocked or _counted(mechanism, found)
+    told = None
+    if found and not moves:
+        told, dropped = _unlocked(assembly, contacts, said, found)
+        if told is not None and dropped is not None and dropped.joint is None:
+            # what is a body no longer may be a joint: a lever on a pin with play
+            kept = [each for each in seats if each is not dropped]
+            other, more, _ = made(kept, [frozenset((dropped.parts[0], part)) for part in dropped.parts[1:]])
+            if 0 < useful_freedoms(other) < useful_freedoms(told):
+                told = _without(dropped, _counted(other, more))
+    told = told or _counted(mechanism, found)
     return replace(told, history=(*told_caps(told), *told.history))
 
 
@@ -173,17 +176,23 @@ def _has_free_slide(mechanism: Mechanism) -> bool:
     )
 
 
+def _without(dropped: Inference, mechanism: Mechanism) -> Mechanism:
+    """Tell of a mechanism that an inference was dropped."""
+    note = f"not inferred, since nothing could move with it: {dropped}"
+    return replace(mechanism, history=(note, *mechanism.history))
+
+
 def _unlocked(
     assembly: Assembly, contacts: Sequence[Contact], said: Said, found: Sequence[Inference]
-) -> Mechanism | None:
-    """Find the mechanism without the weakest inference that locks it: one with useful freedoms, or with any; None
-    otherwise.
+) -> tuple[Mechanism | None, Inference | None]:
+    """Find the mechanism without the weakest inference that locks it, and that inference: one with useful freedoms, or
+    with any; None otherwise.
 
     Inferences that hold parts which nothing else does are weaker than those of bolts and pins: these come first. Those
     without which a part would hang on nothing stay, and so do those without which screws and nuts alone would turn: a
     structure of bolted plates is no mechanism. A pin in a bush, of which nothing else is inferred, is one.
     """
-    movable = None
+    movable, without_it = None, None
     droppable = [each for each in reversed(found) if each.evidence.kind not in _KEPT]
     for dropping in droppable[:_TRIED]:
         fewer = [each for each in found if each is not dropping]
@@ -192,13 +201,12 @@ def _unlocked(
         other = _counted(from_words(assembly, contacts, said, fewer), fewer)
         if fewer and _frees_fasteners_only(other, dropping):
             continue
-        dropped = f"not inferred, since nothing could move with it: {dropping}"
-        other = replace(other, history=(dropped, *other.history))
+        other = _without(dropping, other)
         if useful_freedoms(other):
-            return other
+            return other, dropping
         if movable is None and any(joint.freedoms for joint in other.all_joints):
-            movable = other
-    return movable
+            movable, without_it = other, dropping
+    return movable, without_it
 
 
 def _frees_fasteners_only(mechanism: Mechanism, dropped: Inference) -> bool:
@@ -220,75 +228,6 @@ def _loose(assembly: Assembly, contacts: Sequence[Contact], said: Said, found: S
         said.fixed,
     ]
     return len(connected(assembly.names, [(tie[0], part) for tie in ties for part in tie[1:]])) > 1
-
-
-def useful_freedoms(mechanism: Mechanism) -> int:
-    """Count the freedoms that are of use; 0 where the loops are open in the given pose, so that none can be counted."""
-    return 0 if opening(mechanism.linkage, mechanism.unit) is not None else mechanism.mobility().useful
-
-
-def _seats(mechanism: Mechanism, inexact: bool, bearings: Collection[str]) -> list[Inference]:
-    """Find bodies between which faces leave slides that move nothing else: a bracket on a step, a plate between two
-    cheeks; and rods that are set into each other as a rod end into its rod, which leave a turn, where the assembly is
-    `inexact`: where exact contacts do not determine all of it. What is in one of the `bearings` turns there.
-
-    Only where something moves: of a mechanism that is locked nothing is known to be of no use. Seats on both sides of a
-    body that would hold two others to each other which move by a joint are not both taken. A carriage on a rail is a
-    guide, though nothing that is drawn moves with it.
-    """
-    if not useful_freedoms(mechanism):
-        return []
-    idle = {*mechanism.mobility().idle}
-    owner = {part: body for body, parts in mechanism.bodies.items() for part in parts}
-    useful = [joint.parts for joint in mechanism.all_joints if {f"{joint.name}.{c}" for c in joint.coordinates} - idle]
-    result = []
-    for joint in mechanism.all_joints:
-        flat = joint.kind in (JointKind.PRISMATIC, JointKind.PLANAR)
-        held = {owner[part] for part in joint.parts} & {owner.get(part, part) for part in mechanism.fixed}
-        turning = inexact and joint.kind is JointKind.REVOLUTE and not held  # a nut that drives turns in what is fixed
-        screwed = turning and not {*joint.parts} & {*bearings} and _is_in_line(mechanism, joint, owner)
-        if joint.kind is JointKind.FIXED and joint.name in mechanism.contacts and joint.evidence:
-            result.append(Inference(joint.parts, joint.evidence))
-            continue
-        moved = {f"{joint.name}.{name}" for name in joint.coordinates} - idle
-        if joint.name not in mechanism.contacts or not (flat or screwed) or moved or is_guide(mechanism, joint):
-            continue
-        one, other = (owner[part] for part in joint.parts)
-        joined = {part: one if body == other else body for part, body in owner.items()}
-        if all(joined[first] != joined[second] or owner[first] == owner[second] for first, second in useful):
-            rest = "turn, as of a thread," if screwed else "slide"
-            text = f"faces hold {joint.parts[0]!r} to {joint.parts[1]!r} but for a {rest} that moves nothing else"
-            result.append(Inference(joint.parts, Evidence(EvidenceKind.ENCLOSED, (), text)))
-            owner = joined
-    return result
-
-
-def _is_in_line(mechanism: Mechanism, joint: Joint, owner: Mapping[str, str]) -> bool:
-    """Tell whether all other joints of one of two bodies are about the axis of a joint, as those of the rod of a
-    cylinder with an eye on its end are; a roller also touches its rail."""
-    pose = np.asarray(joint.frames_1, float)[0]
-    point, axis = pose[:3, 3], pose[:3, 2]
-    near = _NEAR * size(mechanism.solids)
-    for body in {owner[part] for part in joint.parts}:
-        others = [
-            each
-            for each in mechanism.all_joints
-            if each is not joint and each.freedoms and body in {owner[part] for part in each.parts}
-        ]
-        if others and all(_is_about(each, point, axis, near) for each in others):
-            return True
-    return False
-
-
-def _is_about(joint: Joint, point: Vector, axis: Vector, near: float) -> bool:
-    """Tell whether a joint is a turn about an axis, or along and about it, or about a point on it, but for the distance
-    `near`."""
-    frame = np.asarray(joint.frames_1, float)[0]
-    offset = frame[:3, 3] - point
-    apart = float(np.linalg.norm(np.cross(offset, axis)))
-    along = bool(np.linalg.norm(np.cross(frame[:3, 2], axis)) < NEAR_ANGLE)
-    turns = joint.kind in (JointKind.REVOLUTE, JointKind.CYLINDRICAL) and along
-    return (turns or joint.kind is JointKind.SPHERICAL) and apart <= near
 
 
 def _counted(mechanism: Mechanism, inferences: Sequence[Inference]) -> Mechanism:

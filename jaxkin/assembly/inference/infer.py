@@ -84,13 +84,15 @@ def infer(
     ignored: Collection[Pair] = (),
     clearance: float | None = None,
     springs: Collection[str] = (),
+    apart: Collection[Pair] = (),
 ) -> Inferred:
     """Infer bodies and joints from solids, the surest rule first; later rules never change what earlier ones found.
 
     Between the parts of pairs that are `ignored` nothing is inferred; `clearance` is that of `common_axes`.
-    What is pushed by `springs` is not stopped by them.
+    What is pushed by `springs` is not stopped by them. The parts of pairs that are `apart` are not inferred to be one
+    body.
     """
-    known = Known(measured, contacts, fixed, rigid, joints, ignored, clearance)
+    known = Known(measured, contacts, fixed, rigid, joints, ignored, clearance, apart)
     known.springs = {*springs}
 
     # rolling bearings: rings, balls, and what lies on one ring only
@@ -126,8 +128,8 @@ def infer(
     body = known.body
     others = [each for each in contacts if not (each.contact_state.is_flat or each.contact_state.is_pin)]
     others = [each for each in others if not is_head_on_tube(known, each)]
-    apart = [each.parts for each in others if len({body[part] for part in each.parts}) > 1]
-    fastening -= {*fixed, *(part for parts in apart for part in parts)}
+    separate = [each.parts for each in others if len({body[part] for part in each.parts}) > 1]
+    fastening -= {*fixed, *(part for parts in separate for part in parts)}
 
     # pins that are in one part: threads, motors, posts, press fits, rivets, rings in grooves
     known.take(screwed_in(known, fastening))

@@ -40,6 +40,7 @@ class Known:
         joints: Sequence[Joint],
         ignored: Collection[Pair] = (),
         clearance: float | None = None,
+        apart: Collection[Pair] = (),
     ):
         self.measured, self.parts, self.contacts, self.fixed = measured, measured.parts, contacts, tuple(fixed)
         self.solids = {part.name: part for part in self.parts}
@@ -70,7 +71,7 @@ class Known:
         self.closed: set[str] = set()
         """Bearings that are one ring each."""
         self.bores, found = measured.bores, measured.axes(clearance)
-        self.ignored, self.clearance = ignored, clearance
+        self.ignored, self.clearance, self.apart = ignored, clearance, apart
         found = [pair for pair in found if frozenset(pair.parts) not in ignored]
         self.sockets = [each for each in sockets(self.parts, clearance) if frozenset(each.parts) not in ignored]
         self.axes = [pair for pair in found if not pair.tapped and not self._is_neck(pair)]
@@ -133,11 +134,12 @@ class Known:
         """Take the inferences of a rule, bodies first; tell whether any was taken.
 
         Parts that are one body are not joined again. Parts that joints by hand or inferred joints join are left apart,
-        and so are the rings of a bearing. Of joints those within a body are left out, and those between bodies that
-        something joined before: one rule may find several axes of two bodies, as bearings do.
+        and so are the rings of a bearing, and the pairs of `apart`. Of joints those within a body are left out, and
+        those between bodies that something joined before: one rule may find several axes of two bodies, as bearings do.
         """
         before = len(self.found)
-        jointed = [*self.by_hand, *self.rings, *(frozenset(each.parts) for each in self.found if each.joint)]
+        jointed = (frozenset(each.parts) for each in self.found if each.joint)
+        jointed = [*self.by_hand, *self.rings, *self.apart, *jointed]
         for each in (each for each in inferences if each.joint is None):
             owners = {self.body[part] for part in each.parts}
             apart = ({self.body[part] for part in pair} for pair in jointed)

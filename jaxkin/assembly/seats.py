@@ -1,0 +1,107 @@
+"""Bodies that faces seat in or on another one but for a slide, or a turn as of a thread, which moves nothing else."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from jaxkin.assembly.guides import is_guide
+from jaxkin.assembly.inference.bores import NEAR_ANGLE
+from jaxkin.assembly.inference.inference import Inference
+from jaxkin.geometry.part import size
+from jaxkin.geometry.pose import Vector
+from jaxkin.joints.evidence import Evidence, EvidenceKind
+from jaxkin.joints.joint import Joint
+from jaxkin.joints.kinds import JointKind
+from jaxkin.mobility.open_loops import opening
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
+
+NEAR = 1e-4
+"""Distance of two axes that are one, over the size of the assembly."""
+
+
+def useful_freedoms(mechanism: Mechanism) -> int:
+    """Count the freedoms that are of use; 0 where the loops are open in the given pose, so that none can be counted."""
+    return 0 if opening(mechanism.linkage, mechanism.unit) is not None else mechanism.mobility().useful
+
+
+def seats_of(mechanism: Mechanism, inexact: bool, bearings: Collection[str]) -> list[Inference]:
+    """Find bodies between which faces leave slides that move nothing else: a bracket on a step, a plate between two
+    cheeks; and rods that are set into each other as a rod end into its rod, which leave a turn, where the assembly is
+    `inexact`: where exact contacts do not determine all of it. What is in one of the `bearings` turns there.
+
+    Only where something moves: of a mechanism that is locked nothing is known to be of no use. Seats on both sides of a
+    body that would hold two others to each other which move by a joint are not both taken, nor a seat of a body that
+    slides in a third one on a body that turns there. A carriage on a rail is a guide, though nothing that is drawn
+    moves with it.
+    """
+    if not useful_freedoms(mechanism):
+        return []
+    idle = {*mechanism.mobility().idle}
+    owner = {part: body for body, parts in mechanism.bodies.items() for part in parts}
+    useful = [joint.parts for joint in mechanism.all_joints if {f"{joint.name}.{c}" for c in joint.coordinates} - idle]
+    result = []
+    for joint in mechanism.all_joints:
+        flat = joint.kind in (JointKind.PRISMATIC, JointKind.PLANAR)
+        held = {owner[part] for part in joint.parts} & {owner.get(part, part) for part in mechanism.fixed}
+        turning = inexact and joint.kind is JointKind.REVOLUTE and not held  # a nut that drives turns in what is fixed
+        screwed = turning and not {*joint.parts} & {*bearings} and _is_in_line(mechanism, joint, owner)
+        if joint.kind is JointKind.FIXED and joint.name in mechanism.contacts and joint.evidence:
+            result.append(Inference(joint.parts, joint.evidence))
+            continue
+        moved = {f"{joint.name}.{name}" for name in joint.coordinates} - idle
+        if joint.name not in mechanism.contacts or not (flat or screwed) or moved or is_guide(mechanism, joint):
+            continue
+        one, other = (owner[part] for part in joint.parts)
+        joined = {part: one if body == other else body for part, body in owner.items()}
+        apart = all(joined[first] != joined[second] or owner[first] == owner[second] for first, second in useful)
+        if apart and not _locks_slide(mechanism, joint, owner):
+            rest = "turn, as of a thread," if screwed else "slide"
+            text = f"faces hold {joint.parts[0]!r} to {joint.parts[1]!r} but for a {rest} that moves nothing else"
+            result.append(Inference(joint.parts, Evidence(EvidenceKind.ENCLOSED, (), text)))
+            owner = joined
+    return result
+
+
+def _locks_slide(mechanism: Mechanism, seat: Joint, owner: Mapping[str, str]) -> bool:
+    """Tell whether one of two bodies slides in a third one on which the other one turns: a crank and the yoke on it."""
+    kinds: dict[tuple[str, str], set[JointKind]] = {}
+    for joint in mechanism.all_joints:
+        pair = [owner[part] for part in joint.parts]
+        for one, other in (pair, pair[::-1]):
+            kinds.setdefault((one, other), set()).add(joint.kind)
+    one, other = ({body: some for (first, body), some in kinds.items() if first == owner[part]} for part in seat.parts)
+    both = [{*map(frozenset, (one[body], other[body]))} for body in one.keys() & other.keys()]
+    return {frozenset({JointKind.PRISMATIC}), frozenset({JointKind.REVOLUTE})} in both
+
+
+def _is_in_line(mechanism: Mechanism, joint: Joint, owner: Mapping[str, str]) -> bool:
+    """Tell whether all other joints of one of two bodies are about the axis of a joint, as those of the rod of a
+    cylinder with an eye on its end are; a roller also touches its rail."""
+    pose = np.asarray(joint.frames_1, float)[0]
+    point, axis = pose[:3, 3], pose[:3, 2]
+    near = NEAR * size(mechanism.solids)
+    for body in {owner[part] for part in joint.parts}:
+        others = [
+            each
+            for each in mechanism.all_joints
+            if each is not joint and each.freedoms and body in {owner[part] for part in each.parts}
+        ]
+        if others and all(_is_about(each, point, axis, near) for each in others):
+            return True
+    return False
+
+
+def _is_about(joint: Joint, point: Vector, axis: Vector, near: float) -> bool:
+    """Tell whether a joint is a turn about an axis, or along and about it, or about a point on it, but for the distance
+    `near`."""
+    frame = np.asarray(joint.frames_1, float)[0]
+    offset = frame[:3, 3] - point
+    apart = float(np.linalg.norm(np.cross(offset, axis)))
+    along = bool(np.linalg.norm(np.cross(frame[:3, 2], axis)) < NEAR_ANGLE)
+    turns = joint.kind in (JointKind.REVOLUTE, JointKind.CYLINDRICAL) and along
+    return (turns or joint.kind is JointKind.SPHERICAL) and apart <= near
