@@ -31,9 +31,9 @@ def closed_export(
     """Move the parts of an export to a pose in which the two frames of each joint coincide as its movement allows.
 
     `frames_2` are the frames (frames, 4, 4) of each constraint on the side of its second part; those of the first part
-    are in its chain. Motors are held where the file has them, if the loops close so. Limits and values of joints are
-    counted on. Notes tell how far parts were moved; where the loops do not close, nothing is moved, each joint is taken
-    as it stands on its first part, and a note tells how far they are open.
+    are in its chain. Motors and locked coordinates are held where the file has them, if the loops close so. Limits and
+    values of joints are counted on. Notes tell how far parts were moved; where the loops do not close, nothing is
+    moved, each joint is taken as it stands on its first part, and a note tells how far they are open.
     """
     joints = [_joint(each, frames) for each, frames in zip(exported.constraints, frames_2, strict=True)]
     couplings = counted_from(exported.couplings, joints, exported.joint_values)
@@ -43,17 +43,10 @@ def closed_export(
     described = [(each.name, *each.parts) for each in joints]
     linkage = Linkage.of(joints, structure([part.name for part in parts], described, exported.fixed))
     linkage = coupled(linkage, couplings)
-    held = [
-        coordinate
-        for each in joints
-        for name in each.coordinates
-        if {each.name, coordinate := f"{each.name}.{name}"} & {*exported.motors}
-    ]
-    mechanism = Mechanism(linkage, unit)
-    found = close(mechanism, held, look_around=False)
-    if not found.closed and held:
-        free = close(mechanism, look_around=False)
-        found = free if free.closed else found
+    names = [(each, number, f"{each.name}.{name}") for each in joints for number, name in enumerate(each.coordinates)]
+    motors = [name for each, _, name in names if {each.name, name} & {*exported.motors}]
+    locked = [name for each, number, name in names if each.limits and each.limits[number] == (0.0, 0.0)]
+    found = _closed(Mechanism(linkage, unit), [*dict.fromkeys([*motors, *locked])], motors, [])
     if not found.closed:
         note = f"the loops of the file do not close, and each joint is taken as it stands on its first part: {found}"
         return tuple(parts), replace(exported, notes=(*exported.notes, note))
@@ -65,7 +58,7 @@ def closed_export(
     moving = [
         name
         for each in joints
-        for name in held
+        for name in motors
         if name.startswith(f"{each.name}.") and found.coordinates[each.name].any()
     ]
     notes = [f"the pose of the file is open; {found}", *found.mechanism.alignment]
@@ -76,6 +69,19 @@ def closed_export(
         notes.append(f"the assembled pose is beyond the limits of {listed(beyond)}")
     there = tuple(moved(part, found.places[part.name]) for part in parts)
     return there, replace(exported, constraints=constraints, notes=(*exported.notes, *notes))
+
+
+def _closed(mechanism: Mechanism, *ways: list[str]) -> Reassembly:
+    """Close the loops in the first way that closes them, each a list of coordinates that are held; else as in the first
+    of all."""
+    failed: list[Reassembly] = []
+    for number, held in enumerate(ways):
+        if held not in ways[:number]:
+            found = close(mechanism, held, look_around=False)
+            if found.closed:
+                return found
+            failed.append(found)
+    return failed[0]
 
 
 def _joint(each: Constraint, frames_2: np.ndarray) -> Joint:

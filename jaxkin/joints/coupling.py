@@ -61,7 +61,7 @@ class Coupling:
             for factor, name in terms
         )
         said = said.removeprefix(" + ") if said.startswith(" + ") else f"-{said.removeprefix(' - ')}"
-        return f"{said} = {float(self.offset):g}"
+        return f"{said} = {float(self.offset) + 0.0:g}"  # 0.0 makes 0 of -0
 
 
 _LEAVES = ("coefficients", "offset")

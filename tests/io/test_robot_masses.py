@@ -8,9 +8,12 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+import trimesh
 from scipy.spatial.transform import Rotation
 
 import jaxkin as jk
+from jaxkin.io.robot_drawn import triangles_of
+from jaxkin.io.robot_model import Shape
 from reference.archives import unpack
 from reference.bare_models import bare_model
 
@@ -234,3 +237,34 @@ def test_a_robot_moves_whatever_its_file_says_of_masses(tmp_path):
     np.testing.assert_allclose(
         found.inertia[found.parts.index("b")], [[1.5, 1.5, 0], [1.5, 1.5, 0], [0, 0, 5]], atol=1e-12
     )
+
+
+@pytest.mark.parametrize(
+    ("kind", "size"),
+    [("box", (0.1, 0.2, 0.3)), ("sphere", (0.1,)), ("sphere", (0.1, 0.2, 0.3)), ("cylinder", (0.1, 0.5)),
+     ("capsule", (0.1, 0.5)), ("capsule", (0.1, 0.01))],
+)  # fmt: skip
+def test_solids_without_a_file_weigh_what_their_formulas_say(kind, size):
+    """Spheres, cylinders and boxes with moments to 1e-5, capsules to 4e-3: those of their triangles."""
+    mesh = trimesh.Trimesh(*trimesh.triangles.to_kwargs(triangles_of(Shape(np.eye(4), kind, size))).values())
+    if kind == "box":
+        volume, square = np.prod(size), np.array(size) ** 2 / 12
+    elif kind == "sphere":
+        a = np.broadcast_to(size, 3)
+        volume, square = 4 / 3 * np.pi * np.prod(a), a**2 / 5
+    else:
+        r, h = size
+        volume, square = np.pi * r**2 * h, np.array([r**2 / 4, r**2 / 4, h**2 / 12])
+    if kind == "capsule":
+        ball = 4 / 3 * np.pi * r**3
+        ends = np.array([r**2 / 5, r**2 / 5, r**2 / 5 + h**2 / 4 + 3 * h * r / 8])
+        volume, square = volume + ball, (volume * square + ball * ends) / (volume + ball)
+    np.testing.assert_allclose(mesh.volume, volume, rtol=1e-12)  # rounding of a thousand triangles
+    np.testing.assert_allclose(mesh.center_mass, 0, atol=1e-12)
+    moments = volume * (square.sum() - square)
+    np.testing.assert_allclose(mesh.moment_inertia.diagonal(), moments, rtol=4e-3 if kind == "capsule" else 1e-5)
+
+
+@pytest.mark.parametrize(("kind", "size"), [("sphere", (0.0,)), ("cylinder", (0.1, 0.0)), ("capsule", (0.0, 0.0))])
+def test_solids_of_no_size_have_finite_corners(kind, size):
+    assert np.isfinite(triangles_of(Shape(np.eye(4), kind, size))).all()

@@ -89,3 +89,23 @@ def test_mujoco_holds_locked_joints(tmp_path):
     data.qpos[:] = [0.3, 0.2, 0.4]
     mujoco.mj_forward(model, data)
     np.testing.assert_allclose(data.efc_pos[: data.ne], [0.2, 0.4 - 0.5], atol=1e-15)  # rounding
+
+
+@pytest.mark.parametrize("lock", ["crank", "rocker"])
+def test_locked_joints_stay_where_they_are_when_loops_are_closed(tmp_path, lock):
+    """A four-bar of rounded numbers: what closes it is one of the joints that may move."""
+    limit = '<limit lower="0" upper="0" effort="1" velocity="1"/>'
+    origins = {"crank": ("base", "0 0 0"), "rod": ("crank", "1 0 0"), "rocker": ("base", "3 0 0")}
+    text = '<robot name="r"><link name="base"/>'
+    for name, (parent, origin) in origins.items():
+        kind, more = ("revolute", limit) if name == lock else ("continuous", "")
+        text += f'<link name="{name}"/><joint name="{name}" type="{kind}"><origin xyz="{origin}"/><axis xyz="0 0 1"/>'
+        text += f'<parent link="{parent}"/><child link="{name}"/>{more}</joint>'
+    for name, parent, origin in (("end 1", "rod", "1.4 2 0"), ("end 2", "rocker", "-0.6 2.01 0")):
+        text += f'<link name="{name}"/><joint name="{name}" type="fixed"><origin xyz="{origin}"/>'
+        text += f'<parent link="{parent}"/><child link="{name}"/></joint>'
+    (tmp_path / "r.urdf").write_text(f"{text}</robot>")
+    (tmp_path / "r.yaml").write_text("closed_loop: [['end 1', 'end 2']]\ntype: ['3d']\n")
+    assembly = jk.load(tmp_path / "r.urdf", loops=tmp_path / "r.yaml")
+    assert any("the pose of the file is open" in note for note in assembly.exported.notes)
+    assert assembly.mechanism().joints[lock].limits == ((0.0, 0.0),)

@@ -244,3 +244,7 @@ def test_the_plan_says_where_a_coupling_is_solved():
     assert (first.couplings, first.unknowns, first.equations) == (("gear A B",), ("B.phi",), 1)
     assert (second.loops, second.after) == (1, (0,))
     assert "gear A B: -0.5 A.phi - B.phi = 0" in str(mechanism)
+
+
+def test_an_equation_ends_in_no_negative_zero():
+    assert str(jk.relation({"A.phi": 1, "B.phi": -2}, -0.0, name="c")) == "A.phi - 2 B.phi = 0"
