@@ -14,6 +14,9 @@ from jaxkin.effects.invariant_faces import invariant
 from jaxkin.examples import EXAMPLES, path
 from reference.drawn_parts import box, loaded
 
+ROUNDING = 1e-12
+"""Of coordinates up to 100: corners are whole numbers, which STL holds exactly, and faces that touch none are flat."""
+
 
 def by_hand(folder, parts, joints):
     """A mechanism of drawn parts whose joints are said, the first part at rest."""
@@ -35,10 +38,10 @@ def test_a_slider_runs_into_a_wall(tmp_path):
     found = jk.clashes(by_hand(tmp_path, parts, [slide]).sweep({"slide": shift}), within=5)
     clear = 10 - shift
     # deeper than half its height the slider is nearest to the wall's front all the same: 30 deep, 20 wide
-    np.testing.assert_allclose(found.clearances[0], np.where(clear > 5, np.inf, clear), atol=1e-4)
+    np.testing.assert_allclose(found.clearances[0], np.where(clear > 5, np.inf, clear), atol=ROUNDING)
     assert found.first == (10, 0) and found.pairs == (("wall", "slider"),)
     assert "first at pose 10: wall - slider, 0.5 mm deep" in str(found)
-    np.testing.assert_allclose(found.depths[0], np.maximum(-clear, 0), atol=1e-4)
+    np.testing.assert_allclose(found.depths[0], np.maximum(-clear, 0), atol=ROUNDING)
 
 
 def test_two_bars_that_cross_have_no_corner_in_each_other(tmp_path):
@@ -129,7 +132,7 @@ def test_a_pin_in_its_hole_is_no_clash_but_through_a_wall_it_is(tmp_path, one_pa
     along = np.asarray(motion.points("pin", (0, 0, 60)))[:, 2] - 75
     # the end of the pin is nearest to the front of the wall, which is deeper than the pin gets
     expected = -np.maximum(along, 0) if one_part else np.where(along < -4 - 1e-3, np.inf, -along)
-    np.testing.assert_allclose(found.clearances[far], expected, atol=1e-4)
+    np.testing.assert_allclose(found.clearances[far], expected, atol=ROUNDING)
     assert np.any(along > 0) and found.first is not None and found.first[1] == far
     if not one_part:
         np.testing.assert_array_equal(found.clearances[own], 0.0)
@@ -180,7 +183,7 @@ def test_a_part_inside_of_another_is_a_clash(tmp_path):
     parts = {"block": box([-20, -20, -20], [20, 20, 20]), "cube": box([28, -2, -2], [32, 2, 2])}
     slide = jk.prismatic("slide", "block", "cube", axis=(-1, 0, 0))
     found = jk.clashes(by_hand(tmp_path, parts, [slide]).sweep({"slide": np.array([0.0, 15.0, 30.0])}), within=100)
-    np.testing.assert_allclose(found.clearances[0], [8.0, -7.0, -18.0], atol=1e-4)
+    np.testing.assert_allclose(found.clearances[0], [8.0, -7.0, -18.0], atol=ROUNDING)
 
 
 def test_two_parts_in_the_same_place_are_a_clash(tmp_path):

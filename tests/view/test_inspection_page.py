@@ -18,6 +18,8 @@ from jaxkin.view.inspection_page import inspection_page
 
 SIDE = 20.0
 """Of the boxes below, in mm; they stand in a row along x, with as much air between them."""
+FLOAT32 = 2e-5
+"""Two roundings of coordinates of about 100 mm in single precision."""
 
 
 @pytest.fixture
@@ -62,8 +64,8 @@ def test_each_part_says_what_it_is(boxes, tmp_path):
     assert (lid["original"], lid["path"], lid["notes"]) == ("lid\x07", ["Cover", "Top"], ["face 1: torus"])
     assert lid["size"] == "20 x 20 x 20 mm" and data["parts"][0]["original"] == ""
     for part, solid in zip(data["parts"], boxes.parts, strict=True):
-        assert np.allclose(np.ptp(points(data, part), axis=0), SIDE, atol=1e-4)
-        assert np.allclose(points(data, part).min(axis=0), solid.box[0], atol=1e-4)  # float32 of about 100 mm
+        assert np.allclose(np.ptp(points(data, part), axis=0), SIDE, rtol=0, atol=FLOAT32)
+        assert np.allclose(points(data, part).min(axis=0), solid.box[0], rtol=0, atol=FLOAT32)
 
 
 def test_bodies_have_one_colour_and_all_their_parts(boxes, tmp_path):
@@ -94,8 +96,8 @@ def test_each_joint_has_its_axis_through_both_parts(boxes, tmp_path):
     assert (hinge["kind"], hinge["coordinates"], hinge["parts"]) == ("revolute", ["hinge.phi"], [0, 1])
     assert (hinge["evidence"], hinge["inferred"]) == ("user", False)
     place, start, end = points(data, data["paths"][0])
-    assert np.allclose(place, (5, 0, 0), atol=1e-4)
-    assert np.allclose(start[:2], (5, 0), atol=1e-4) and start[2] < -SIDE / 2 and end[2] > SIDE / 2
+    assert np.allclose(place, (5, 0, 0), rtol=0, atol=FLOAT32)
+    assert np.allclose(start[:2], (5, 0), rtol=0, atol=FLOAT32) and start[2] < -SIDE / 2 and end[2] > SIDE / 2
     _, start, end = points(data, data["paths"][1])  # along x the boxes have no stretch in common: it spans the air
     assert start[0] < SIDE / 2 and end[0] > 6 * SIDE - SIDE / 2 and rail["parts"] == [0, 3]
 
