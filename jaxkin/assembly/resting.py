@@ -6,6 +6,7 @@ from collections.abc import Callable, Collection
 from typing import TYPE_CHECKING
 
 from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.seats import locks_slide
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
@@ -18,10 +19,12 @@ if TYPE_CHECKING:
 
 def resting(mechanism: Mechanism) -> list[Inference]:
     """Find the bodies that faces hold to another one in one direction only: they lie there, and nothing that is drawn
-    keeps them in their place."""
+    keeps them in their place; but for those that slide in a third one on which the other one turns."""
     found = []
+    owner = {part: body for body, parts in mechanism.bodies.items() for part in parts}
     for joint in mechanism.all_joints:
-        if joint.kind is JointKind.PLANAR and joint.name in mechanism.contacts:
+        lies = joint.kind is JointKind.PLANAR and joint.name in mechanism.contacts
+        if lies and not locks_slide(mechanism, joint, owner):
             one, other = map(repr, joint.parts)
             text = f"{one} lies on {other}, with no screw drawn, and nothing else needs it to move there"
             found.append(Inference(joint.parts, Evidence(EvidenceKind.ENCLOSED, (), text)))

@@ -59,7 +59,7 @@ def seats_of(mechanism: Mechanism, inexact: bool, bearings: Collection[str]) -> 
         one, other = (owner[part] for part in joint.parts)
         joined = {part: one if body == other else body for part, body in owner.items()}
         apart = all(joined[first] != joined[second] or owner[first] == owner[second] for first, second in useful)
-        if apart and not _locks_slide(mechanism, joint, owner):
+        if apart and not locks_slide(mechanism, joint, owner):
             rest = "turn, as of a thread," if screwed else "slide"
             text = f"faces hold {joint.parts[0]!r} to {joint.parts[1]!r} but for a {rest} that moves nothing else"
             result.append(Inference(joint.parts, Evidence(EvidenceKind.ENCLOSED, (), text)))
@@ -67,7 +67,7 @@ def seats_of(mechanism: Mechanism, inexact: bool, bearings: Collection[str]) -> 
     return result
 
 
-def _locks_slide(mechanism: Mechanism, seat: Joint, owner: Mapping[str, str]) -> bool:
+def locks_slide(mechanism: Mechanism, seat: Joint, owner: Mapping[str, str]) -> bool:
     """Tell whether one of two bodies slides in a third one on which the other one turns: a crank and the yoke on it."""
     kinds: dict[tuple[str, str], set[JointKind]] = {}
     for joint in mechanism.all_joints:

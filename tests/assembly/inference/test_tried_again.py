@@ -1,4 +1,4 @@
-"""What one inference takes for a body is tried as a joint where nothing moves with it, or where it would lock a slide."""
+"""What an inference takes for one body is tried as a joint, where nothing moves with it or it would lock a slide."""
 
 import pytest
 
@@ -22,7 +22,12 @@ def test_a_yoke_that_a_guide_leads_with_play_is_not_held_to_the_crank_that_it_li
     """A Scotch yoke: its square rod is between four walls of the base, and the yoke lies on the disc of the crank."""
     walls = [
         block((95, low, bottom), (125, high, top))
-        for low, high, bottom, top in [(-20, -4.1, 0, 40), (4.1, 20, 0, 40), (-4.1, 4.1, 0, 10.9), (-4.1, 4.1, 19.1, 40)]
+        for low, high, bottom, top in [
+            (-20, -4.1, 0, 40),
+            (4.1, 20, 0, 40),
+            (-4.1, 4.1, 0, 10.9),
+            (-4.1, 4.1, 19.1, 40),
+        ]
     ]
     base = part("base", block((-110, -40, -10), (190, 40, 0)), *walls, ring(6.0, 9.0, -10, 0))
     crank = part("crank", pin(6.0, -10, 0), pin(25.0, 0, 8), pin(4.0, 8, 22, (11.5, 9.6)))
