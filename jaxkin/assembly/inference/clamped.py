@@ -295,5 +295,5 @@ def _stacked(known: Known, ball: str, parts: Collection[str], axis: Bore) -> Seq
     """Find the parts that lie flat on a ball, and on those that do, across an axis."""
     found = [ball]
     for part in found:  # grows while it is read
-        found += [other for other in known.flat_on(part, axis.axis) if other in parts and other not in found]
+        found += [other for other in known.parts_flat_on(part, axis.axis) if other in parts and other not in found]
     return found

@@ -24,11 +24,6 @@ def is_head_on_tube(known: Known, contact: Contact) -> bool:
     return any(stands_across(surface, pair.one.axis) for surface in contact.surfaces for pair in pairs)
 
 
-def lies_across(known: Known, part: str, stack: Stack) -> bool:
-    """Tell whether a part lies flat on a fastener of a stack, across the axis, as a plate on the head of a bolt."""
-    return any(known.touch_across(part, each, stack.axis.axis) for each in stack.fasteners)
-
-
 def is_headed(known: Known, stack: Stack) -> bool:
     """Tell whether a stack has something wider than its pin on both sides of all holes that the pin is in, near to
     them."""
@@ -65,7 +60,7 @@ def is_exposed(known: Known, stack: Stack) -> bool:
     wide = [
         hole
         for part in stack.held
-        if lies_across(known, part, stack)
+        if known.touches_across(part, along, *stack.fasteners)
         for hole in known.bores[part]
         if hole.hole and any(goes_through(pin, hole) for pin in pins)
     ]

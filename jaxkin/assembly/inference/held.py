@@ -10,7 +10,7 @@ import numpy as np
 from jaxkin.assembly.inference.axes import CommonAxis, engaged
 from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.fasteners import Stack, bolted, patterns
-from jaxkin.assembly.inference.heads import goes_through, is_exposed, is_headed, lies_across
+from jaxkin.assembly.inference.heads import goes_through, is_exposed, is_headed
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.moving_pins import moves_in_holes
@@ -226,7 +226,7 @@ def _clamped_on(known: Known, stack: Stack, body: Mapping[str, str]) -> str | No
         for part in stack.held
         if part not in on
         and body[part] not in bushed
-        and lies_across(known, part, stack)
+        and known.touches_across(part, stack.axis.axis, *stack.fasteners)
         and any(goes_through(pin, hole) for hole in known.bores[part] if hole.hole for pin in pins)
     ]
     return found[0] if len({body[part] for part in found}) == 1 else None

@@ -103,8 +103,8 @@ def screwed_on_ends(known: Known) -> list[Inference]:
             if end.virtual or end.other.part != shaft or screw == hub or not end.other.on_axis_of(pair.one):
                 continue
             under = {screw, *(each.other.part for each in known.axes if each.one is end.one)} - {shaft, hub}
-            washers = {part for part in under if known.touch_across(screw, part, pair.one.axis)}
-            if any(known.touch_across(part, hub, pair.one.axis) for part in (screw, *washers)):
+            washers = {part for part in under if known.touches_across(screw, pair.one.axis, part)}
+            if known.touches_across(hub, pair.one.axis, screw, *washers):
                 text = f"{screw!r} in the end of {shaft!r} holds {hub!r}, which fits the shaft exactly"
                 result.append(_held(known, pair, text))
     return result
@@ -142,7 +142,7 @@ def _grips(known: Known, end: CommonAxis, through: CommonAxis) -> bool:
     if through.one.part != screw or part == rod or not through.one.on_axis_of(end.one):
         return False
     loose = through.clearance >= MIN_LOOSE * through.other.radius
-    gripped = all(known.touch_across(each, part, axis) for each in (screw, rod))
+    gripped = all(known.touches_across(each, axis, part) for each in (screw, rod))
     return loose and gripped and not is_round_about(known, part, through.other)
 
 
