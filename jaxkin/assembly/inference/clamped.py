@@ -22,7 +22,8 @@ from jaxkin.assembly.inference.stop_faces import ACROSS, WIDER, gap, stands_acro
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 FITTED = 0.02
-"""Clearance of a shaft in a hub that is clamped on it, or of a thread drawn as a plain cylinder, over the radius."""
+"""Clearance of a shaft or tube in what is clamped on it, or of a thread drawn as a plain cylinder, over the radius: a
+bearing in halves that is drawn with a gap has more."""
 DRAWN_TOGETHER = 0.05
 """The same of a shaft in a hub with a slit, which a screw draws together."""
 MAX_ACROSS = 0.6
@@ -36,7 +37,7 @@ MAX_BESIDE = 3.0
 """Distance of the screw of a slit from the axis of the shaft, over the radius of the shaft, at most."""
 MAX_SLIT = 0.5
 """Width of a slit over the radius of the shaft, at most: a fork is wider."""
-SLOT = (0.98, 1.5)
+TIP_SLOT = (0.98, 1.5)
 """Distance of the walls of a slot from the axis of a screw that it guides, over the radius of the tip."""
 MIN_STROKE = 2.0
 """Length of such a slot over the width of the tip, at least."""
@@ -182,7 +183,7 @@ def _runs_in_slot(known: Known, screw: str, pair: CommonAxis) -> bool:
     return any(
         abs(normal @ axis) < ACROSS
         for tip in tips
-        for normal in walls_beside(tip, shaft, SLOT, MIN_STROKE * 2 * tip.radius)
+        for normal in walls_beside(tip, shaft, TIP_SLOT, MIN_STROKE * 2 * tip.radius)
     )
 
 

@@ -12,7 +12,7 @@ from jaxkin.assembly.inference.hinge import Hinge
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.stop_faces import ACROSS
-from jaxkin.assembly.inference.walls import MAX_PLAY, Looking, facing, walls
+from jaxkin.assembly.inference.walls import MAX_SIDE_PLAY, Looking, facing, walls
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector
 from jaxkin.geometry.surfaces import Plane
@@ -72,7 +72,7 @@ def _between(one: Sequence[Looking], other: Sequence[Looking]) -> Vector | None:
     for normal, gap, place in one:
         for back, other_gap, other_place in other:
             width = abs(place + other_place)
-            if np.linalg.norm(normal + back) < ACROSS and gap + other_gap <= MAX_PLAY * width:
+            if np.linalg.norm(normal + back) < ACROSS and gap + other_gap <= MAX_SIDE_PLAY * width:
                 return normal
     return None
 

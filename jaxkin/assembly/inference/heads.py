@@ -13,7 +13,7 @@ from jaxkin.assembly.inference.stop_faces import ACROSS, WIDER, stands_across
 from jaxkin.contacts.contact import Contact
 from jaxkin.joints.evidence import EvidenceKind
 
-NEAR = 1.0
+MAX_HEAD_GAP = 1.0
 """Distance of heads from the outermost holes, over the radius of the pin, at most: with a washer that is not drawn."""
 
 
@@ -39,7 +39,7 @@ def is_headed(known: Known, stack: Stack) -> bool:
     heights = corners @ along
     wide = np.linalg.norm(corners - np.outer(heights, along), axis=1) > WIDER * radius
     heights = heights[wide] + float(stack.axis.point @ along)
-    slack = NEAR * radius
+    slack = MAX_HEAD_GAP * radius
     below, above = heights[heights <= low + slack], heights[heights >= high - slack]
     return bool(len(below) and len(above) and below.max() >= low - slack and above.min() <= high + slack)
 

@@ -15,7 +15,7 @@ from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.moving_pins import moves_in_holes
 from jaxkin.assembly.inference.sleeves import SAME_FIT, is_round, is_round_about
-from jaxkin.assembly.inference.stop_faces import MAX_PLAY, nearest, play
+from jaxkin.assembly.inference.stop_faces import MAX_AXIAL_PLAY, nearest, play
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 LONG = 2.5
@@ -236,7 +236,7 @@ def _is_trapped(known: Known, pin: str, hole: Bore) -> bool:
     """Tell whether faces on both sides keep a pin from sliding in the hole of a part, such as those beside a collar."""
     one, other = (known.measured.stops(known.solids[part], hole) for part in (pin, hole.part))
     room = play(one, other, hole.radius)
-    return room is not None and room <= MAX_PLAY * hole.radius
+    return room is not None and room <= MAX_AXIAL_PLAY * hole.radius
 
 
 def rollers(known: Known, fastening: Collection[str]) -> set[str]:

@@ -15,7 +15,7 @@ from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.lines import Line, lines
 from jaxkin.assembly.inference.slide_stops import Stop
-from jaxkin.assembly.inference.stop_faces import MAX_LIFT, MAX_PLAY, between_bores, nearest, play, stands_across
+from jaxkin.assembly.inference.stop_faces import MAX_AXIAL_PLAY, MAX_LIFT, between_bores, nearest, play, stands_across
 from jaxkin.assembly.inference.walls import turns
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints import pairs
@@ -141,7 +141,7 @@ def _hinge(known: Known, line: Line, touching: bool, fastened: bool, kept: Seque
     """
     pair, found, exact, radius = line.first, line.found, any(line.pins), line.first.other.radius
     room, near = _room(known, line, touching, kept)
-    if touching or (room is not None and room <= MAX_PLAY * radius):
+    if touching or (room is not None and room <= MAX_AXIAL_PLAY * radius):
         return [hinge(known, line, Stop.FACES, 0.0 if touching else room, room, touching)]
     far = room is not None and room > FAR * radius
     reach = _reach(found, pair)
@@ -173,7 +173,7 @@ def _room(known: Known, line: Line, touching: bool, kept: Sequence[Line]) -> tup
         for group in groups
     )
     room, near = play(one, other, hole.radius), nearest(one, other, hole.radius)
-    if not any(line.pins) and not touching and (room is None or room > MAX_PLAY * hole.radius):
+    if not any(line.pins) and not touching and (room is None or room > MAX_AXIAL_PLAY * hole.radius):
         slanted = [
             [stop for part in rigid if body[part.name] in group for stop in known.measured.slanted_stops(part, hole)]
             for group in groups
@@ -181,7 +181,7 @@ def _room(known: Known, line: Line, touching: bool, kept: Sequence[Line]) -> tup
         rooms = (room, play([*one, *slanted[0]], [*other, *slanted[1]], hole.radius))
         room = min((each for each in rooms if each is not None), default=None)
     between = None if pair.virtual else _between(known, pair, line.found)
-    if between is not None and (between <= MAX_PLAY * hole.radius or not any(line.pins)):
+    if between is not None and (between <= MAX_AXIAL_PLAY * hole.radius or not any(line.pins)):
         room = between if room is None else min(room, between)
     return room, near
 
@@ -199,7 +199,7 @@ def _has_no_stroke(pair: CommonAxis, reach: tuple[float, float]) -> bool:
         return False
     spans = pair.one.spans_along(pair.one.axis)
     ends = [end for span in spans if span[0] < reach[1] and reach[0] < span[1] for end in span]
-    return bool(ends) and abs(max(ends) - min(ends) - (reach[1] - reach[0])) <= MAX_PLAY * pair.other.radius
+    return bool(ends) and abs(max(ends) - min(ends) - (reach[1] - reach[0])) <= MAX_AXIAL_PLAY * pair.other.radius
 
 
 def _is_centred(pair: CommonAxis, middles: Sequence[float]) -> bool:

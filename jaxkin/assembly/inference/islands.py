@@ -24,7 +24,7 @@ MIN_SUNK = 0.05
 """Share of the corners of a part in the material of another one, at least: what only touches it has less."""
 SAMPLED = 64
 """Corners of a part that are looked for in the material of others, at most: a coil spring has thousands."""
-NEAR = 0.02
+MAX_NEAREST = 0.02
 """Distance to the nearest part, over the size of the assembly, up to which a part that touches nothing goes with it."""
 
 
@@ -141,7 +141,7 @@ def _distances(known: Known, group_of: Mapping[str, int]) -> list[tuple[bool, fl
     home = group_of[known.fixed[0]]
     low, high = (np.array([part.box[end] for part in known.parts]) for end in (0, 1))
     numbers = np.array([group_of[name] for name in known.names])
-    limit, found = NEAR * size(tuple(known.parts)), []
+    limit, found = MAX_NEAREST * size(tuple(known.parts)), []
     for index in np.flatnonzero(numbers != home).tolist():
         gaps = np.linalg.norm(np.maximum(np.maximum(low - high[index], low[index] - high), 0.0), axis=1)
         gaps[numbers == numbers[index]] = np.inf

@@ -20,7 +20,7 @@ from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.topology.components import connected
 
-FITTED = 0.02
+MAX_BEARING_OFFSET = 0.02
 """Distance of the axis of a bearing from that of its shaft, over the radius of the shaft, at most."""
 
 
@@ -96,7 +96,7 @@ def _turning(known: Known, line: Line) -> str | None:
             and shaft in {body[part] for part in each.parts}
             and body[housing] != hub
             and np.linalg.norm(np.cross(frame[:3, 2], pair.one.axis)) < ACROSS
-            and apart <= FITTED * pair.one.radius
+            and apart <= MAX_BEARING_OFFSET * pair.one.radius
             and not _is_tied(known, hub, shaft)
         ):
             return housing

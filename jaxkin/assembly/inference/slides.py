@@ -12,7 +12,7 @@ from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.assembly.inference.stop_faces import ACROSS
-from jaxkin.assembly.inference.walls import MAX_PLAY, Looking, between_faces, facing, walls
+from jaxkin.assembly.inference.walls import MAX_SIDE_PLAY, Looking, between_faces, facing, walls
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector
 from jaxkin.geometry.surfaces import Plane
@@ -129,7 +129,7 @@ def slide_between(one: Part, others: Sequence[Part]) -> tuple[Vector, float] | N
                 min((gap / abs(along) for along, gap in gaps if side * along > MIN_SLANT), default=np.inf)
                 for side in (1, -1)
             )
-            if ahead + behind <= MAX_PLAY * width:
+            if ahead + behind <= MAX_SIDE_PLAY * width:
                 return axis, max(play, ahead + behind)
     return None
 
@@ -162,7 +162,7 @@ def _dovetail(one: Part, others: Sequence[Part]) -> tuple[Vector, float] | None:
             along = [each for each in looking if abs(each[0] @ axis) < ACROSS]
             room = _room([(normal @ across, gap) for normal, gap, _ in along])
             width = _room([(normal @ across, place - normal @ middle) for normal, _, place in along])
-            if room is not None and width is not None and np.all(room <= MAX_PLAY * width):
+            if room is not None and width is not None and np.all(room <= MAX_SIDE_PLAY * width):
                 return axis, float(room.max())
     return None
 

@@ -14,7 +14,7 @@ from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 CLOSED = 0.02
 """Play of a part between a head and a collar of its stud, over the radius, that counts as none."""
-THIN = 0.4
+MAX_RING_LENGTH = 0.4
 """Length of a hole over its diameter, at most, of a ring that is no nut and no end of a rod: nuts have 0.5 to 1."""
 MIN_LOOSE = 0.045
 """Clearance of a screw in what it clamps on the end of a rod, over the radius of the hole, at least: M5 to M10 have
@@ -122,7 +122,7 @@ def bolted_ends(known: Known) -> list[Inference]:
         rod = end.other.part
         if end.virtual or abs(end.clearance) > SAME_FIT * end.other.radius or not is_round_about(known, rod, end.other):
             continue
-        if end.other.half < THIN * end.other.radius:
+        if end.other.half < MAX_RING_LENGTH * end.other.radius:
             continue  # a retaining ring on the end of a pin
         found += [(rod, through) for through in known.axes if _grips(known, end, through)]
     ground, result = {body[part] for part in known.fixed}, []
