@@ -159,7 +159,7 @@ def infer(
     known.take(shoes(known))
     known.take([*pinned_slides(known), *dowelled(known)])
     turning = closed_bearing_joints(known, closed)
-    known.take([each.inference for each in turning if each.stop is Stop.NONE])
+    known.take([each.inference for each in turning if not each.replaces_slide])
     body = known.body
     borne = {frozenset(body[part] for part in each.inference.parts) for each in turning}
     others = hinges(known, fastening)
@@ -167,7 +167,7 @@ def infer(
     guided = guided_on_faces(known)
     joined += [*set_on_pins(known, joined), *guided]
     known.take(floating(known, joined))
-    known.take([each.inference for each in joined if each.stop is Stop.NONE and each not in turning])
+    known.take([each.inference for each in joined if not each.replaces_slide and each not in turning])
     known.take(loose_slides(known))
     known.take(carriages(known))
 
@@ -181,6 +181,7 @@ def infer(
 
     # what would stop slides that contacts allow, by how sure it is
     body = known.body
-    stops = [each for each in joined if len({body[part] for part in each.inference.parts}) > 1]
-    levels = [[each.inference for each in stops if each.stop is level] for level in Stop if level is not Stop.NONE]
-    return Inferred(known.found, levels)
+    replacing = [
+        each for each in joined if each.replaces_slide and len({body[part] for part in each.inference.parts}) > 1
+    ]
+    return Inferred(known.found, [[each.inference for each in replacing if each.stop is level] for level in Stop])

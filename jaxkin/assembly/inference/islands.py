@@ -8,10 +8,10 @@ from itertools import combinations
 import numpy as np
 
 from jaxkin.assembly.inference.embedded import inside
-from jaxkin.assembly.inference.hinge import Hinge
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.stop_faces import ACROSS
+from jaxkin.assembly.inference.stopped_joint import StoppedJoint
 from jaxkin.geometry.part import size
 from jaxkin.geometry.pose import Vector
 from jaxkin.geometry.surfaces import Plane
@@ -28,7 +28,7 @@ MAX_NEAREST = 0.02
 """Distance to the nearest part, over the size of the assembly, up to which a part that touches nothing goes with it."""
 
 
-def lying_on_one(known: Known, guided: Sequence[Hinge] = ()) -> list[Inference]:
+def lying_on_one(known: Known, guided: Sequence[StoppedJoint] = ()) -> list[Inference]:
     """Find bodies that only touch others with their plane faces, which look one way: another one, or one of their
     sub-assembly.
 

@@ -13,10 +13,10 @@ NEAR_LIMIT = 2.0
 
 
 class Stop(IntEnum):
-    """What stops a slide along a common axis that exact contacts allow, the surest first."""
+    """What stops a slide, the surest first."""
 
     NONE = 0
-    """The joint is not one of exact contacts."""
+    """Nothing."""
     FACES = 1
     """Faces on both sides."""
     ONE_FACE = 2
