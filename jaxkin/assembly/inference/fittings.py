@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis
-from jaxkin.assembly.inference.clamped import FITTED
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.set_screws import FITTED
 from jaxkin.assembly.inference.sleeves import is_hollow
 from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.geometry.surfaces import Plane

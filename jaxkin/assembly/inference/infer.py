@@ -9,7 +9,6 @@ from jaxkin.assembly.inference.ball_joints import ball_joints
 from jaxkin.assembly.inference.bearing_joints import bearing_bodies, bearing_joints
 from jaxkin.assembly.inference.bearings import outside_of
 from jaxkin.assembly.inference.carriages import carriages
-from jaxkin.assembly.inference.clamped import bolted_balls, clamped_hubs, locked_threads
 from jaxkin.assembly.inference.closed_bearing_joints import (
     closed_bearing_bodies,
     closed_bearing_joints,
@@ -32,17 +31,20 @@ from jaxkin.assembly.inference.held import (
 )
 from jaxkin.assembly.inference.hinges import hinges
 from jaxkin.assembly.inference.inference import Inference
-from jaxkin.assembly.inference.islands import lying_on_one, sunk_in_siblings, tied_to_nothing
 from jaxkin.assembly.inference.keyed import flatted_hubs, keyed_hubs, squared_hubs
 from jaxkin.assembly.inference.known import Known, Pair
+from jaxkin.assembly.inference.lock_nuts import locked_threads
+from jaxkin.assembly.inference.lying_on_one import lying_on_one
 from jaxkin.assembly.inference.measured import Measured
 from jaxkin.assembly.inference.motors import motor_shafts
 from jaxkin.assembly.inference.on_rings import clamped_on_rings
 from jaxkin.assembly.inference.one_screw import clamped_by_one_screw
 from jaxkin.assembly.inference.pinned_slides import pinned_slides
 from jaxkin.assembly.inference.retaining_rings import retaining_rings
+from jaxkin.assembly.inference.rod_end_bolts import bolted_balls
 from jaxkin.assembly.inference.screwed import screwed_bodies, screwed_in
 from jaxkin.assembly.inference.set_on import set_on_pins
+from jaxkin.assembly.inference.set_screws import clamped_hubs
 from jaxkin.assembly.inference.shoes import shoes
 from jaxkin.assembly.inference.shouldered import pressed_on_shoulders
 from jaxkin.assembly.inference.sleeves import (
@@ -62,6 +64,7 @@ from jaxkin.assembly.inference.tapers import self_holding_tapers
 from jaxkin.assembly.inference.tight_ends import bolted_ends, pressed_pins, riveted_studs, screwed_on_ends
 from jaxkin.assembly.inference.tube_clamps import clamped_halves, u_bolts
 from jaxkin.assembly.inference.undrawn import empty_nuts, lone_screws, screwed_flat
+from jaxkin.assembly.inference.untied import sunk_in_siblings, tied_to_nothing
 from jaxkin.contacts.contact import Contacts
 from jaxkin.joints.joint import Joint
 

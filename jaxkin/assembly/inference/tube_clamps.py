@@ -8,11 +8,11 @@ import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.bores import Bore
-from jaxkin.assembly.inference.clamped import FITTED
 from jaxkin.assembly.inference.collets import is_piece
 from jaxkin.assembly.inference.fasteners import parallel
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.set_screws import FITTED
 from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.assembly.inference.walls import facing
 from jaxkin.joints.evidence import Evidence, EvidenceKind
