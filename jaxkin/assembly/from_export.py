@@ -12,8 +12,8 @@ import numpy as np
 
 from jaxkin.assembly.exported import Constraint, Exported
 from jaxkin.assembly.inference.inference import Inference
-from jaxkin.assembly.inference.islands import tied_to_nothing
 from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.untied import tied_to_nothing
 from jaxkin.assembly.subassemblies import rigid_subassemblies
 from jaxkin.assembly.to_mechanism import Said, check_said, from_words
 from jaxkin.contacts.contact import Contacts

@@ -31,7 +31,7 @@ _OTHER_RADIUS = 1.02
 MIN_ENGAGED = 0.05
 """Length of a pin in its hole, over the radius, at least: a pin that ends where a hole of the next part begins is not
 in it."""
-MAX_GAP = 4.0
+MAX_AXIAL_GAP = 4.0
 """Equal bores farther apart along their axis, over the radius, have nothing to do with each other."""
 MAX_FAR = 20.0
 """The same of parts that nothing else ties: plates on spacers that are not drawn."""
@@ -148,7 +148,7 @@ def _equal(pair: CommonAxis) -> bool:
     radius = max(pair.one.radius, pair.other.radius)
     if pair.offset > MAX_OFFSET * radius or abs(pair.clearance) > MAX_TAPPED * radius:
         return False
-    return -engaged(pair) <= (MIN_ENGAGED if pair.tapped else MAX_GAP) * radius
+    return -engaged(pair) <= (MIN_ENGAGED if pair.tapped else MAX_AXIAL_GAP) * radius
 
 
 def apart(one: Bore, other: Bore) -> tuple[float, float]:

@@ -23,7 +23,7 @@ FLUSH = 0.05
 """Ends of two rings that are flush, over the width of the wider one: what a bearing without its balls is known by."""
 ROLLING = 3
 """Balls or rollers that centre a ring, at least."""
-MAX_GAP = 0.15
+MAX_RACE_GAP = 0.15
 """Play of a ball or roller beside each ring, over the room between both, at most: what leaves more centres no ring."""
 SLACK = 0.05
 """Play that parts between two rings have beyond the section of the rings, over the radius of the outer one."""
@@ -89,7 +89,7 @@ def _rolls(part: Part, outer: Ring, inner: Ring) -> bool:
     """Tell whether what is between two rings reaches from one to the other, with its middle beside both: a screw
     through a flange does not, nor what else is on a long hollow axle."""
     away, along = _section(part, outer.hole)
-    gap, slack = MAX_GAP * _room(outer, inner), SLACK * outer.outside.radius
+    gap, slack = MAX_RACE_GAP * _room(outer, inner), SLACK * outer.outside.radius
     ends, middle = np.array([reach_of(ring, outer.hole) for ring in (outer, inner)]), (along.min() + along.max()) / 2
     beside = ends[:, 0].max() - slack <= middle <= ends[:, 1].min() + slack
     return bool(beside and away.min() <= inner.outside.radius + gap and away.max() >= outer.hole.radius - gap)

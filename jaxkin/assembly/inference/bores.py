@@ -20,7 +20,7 @@ NEAR_ANGLE = 1e-3
 """Radians between axes of different parts that are meant to be one axis."""
 NEAR_LENGTH = 0.01
 """Over the radius: the same of their distance."""
-MAX_OPEN = np.deg2rad(200.0)
+MAX_OPEN_ARC = np.deg2rad(200.0)
 """The widest gap around a bore that still holds what is in it: a half-shell with its tessellation. Fillets are open by
 270 degrees."""
 
@@ -90,7 +90,7 @@ def _same(one: Cylinder, other: Cylinder) -> bool:
 def _bore(part: str, surface: Cylinder, faces: Sequence[Face]) -> Bore | None:
     corners = np.concatenate([face.triangles for face in faces]).reshape(-1, 3) - surface.point
     along = corners @ surface.axis
-    if opening(corners, surface.axis) > MAX_OPEN:
+    if opening(corners, surface.axis) > MAX_OPEN_ARC:
         return None
     low, high = float(along.min()), float(along.max())
     middle = (low + high) / 2

@@ -17,7 +17,7 @@ from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.joints.kinds import JointKind
 
-MAX_PLAY = 0.05
+MAX_CARRIAGE_PLAY = 0.05
 """Gap or overlap of a wheel and the face that it runs on, over the radius of the wheel, at most."""
 MIN_SLANT = 0.1
 """Sine of the angle between the axis of a wheel and the normal of the face that it runs on, at least."""
@@ -141,12 +141,12 @@ def _runs(wheel: _Wheel, rail: Part) -> list[_Run]:
             continue
         heights = (treads - plane.point) @ plane.normal
         gap = float(heights.min())
-        if abs(gap) > MAX_PLAY * wheel.radius:
+        if abs(gap) > MAX_CARRIAGE_PLAY * wheel.radius:
             continue
         way /= np.linalg.norm(way)
         across = np.column_stack([way, np.cross(plane.normal, way)])
         corners = face.triangles.reshape(-1, 3) @ across
-        lowest = treads[heights <= gap + MAX_PLAY * wheel.radius] @ across
+        lowest = treads[heights <= gap + MAX_CARRIAGE_PLAY * wheel.radius] @ across
         low, high = (
             np.maximum(corners.min(axis=0), lowest.min(axis=0)),
             np.minimum(corners.max(axis=0), lowest.max(axis=0)),

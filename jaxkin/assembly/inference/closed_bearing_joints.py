@@ -7,11 +7,11 @@ from collections.abc import Sequence
 
 from jaxkin.assembly.inference.axes import CommonAxis, engaged
 from jaxkin.assembly.inference.bearings import Ring
-from jaxkin.assembly.inference.hinge import Hinge
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sleeves import MAX_LOOSE
 from jaxkin.assembly.inference.slide_stops import Stop
+from jaxkin.assembly.inference.stopped_joint import StoppedJoint
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
@@ -35,7 +35,7 @@ def closed_bearing_bodies(known: Known, found: Sequence[Ring]) -> list[Inference
     return result
 
 
-def closed_bearing_joints(known: Known, found: Sequence[Ring]) -> list[Hinge]:
+def closed_bearing_joints(known: Known, found: Sequence[Ring]) -> list[StoppedJoint]:
     """Make a revolute joint of each bearing and what turns in it; one for several bearings on an axis of two bodies.
 
     Of pins that fit exactly it only stops the slide that contacts allow.
@@ -54,7 +54,7 @@ def closed_bearing_joints(known: Known, found: Sequence[Ring]) -> list[Hinge]:
         joint = pairs.revolute("-".join(parts), *parts, point=pair.other.point, axis=pair.one.axis)
         text = f"{pair.one.part!r} turns in {pair.other.part!r}, which has the size of a ball bearing"
         inference = Inference.of(joint, _evidence(of[pair.other.part], text))
-        result.append(Hinge(inference, Stop.BEARING if exact else Stop.NONE))
+        result.append(StoppedJoint(inference, Stop.BEARING, exact))
     return result
 
 

@@ -12,7 +12,7 @@ from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 MIN_GAP = np.deg2rad(150.0)
 """The widest angle around a shaft that a half of a split ring leaves open, at least."""
-FITTED = 0.05
+STEP_FIT = 0.05
 """Radius of a step inside of a split ring less that of the shaft there, over the radius, at most."""
 
 
@@ -56,7 +56,7 @@ def _has_steps(known: Known, piece: Bore, shaft: Bore) -> bool:
     fitted = set()
     for hole in known.bores[piece.part]:
         for pin in known.bores[shaft.part]:
-            fits = abs(hole.radius - pin.radius) <= FITTED * hole.radius and hole.on_axis_of(pin)
+            fits = abs(hole.radius - pin.radius) <= STEP_FIT * hole.radius and hole.on_axis_of(pin)
             if hole.hole and not pin.hole and fits and shared_length(hole, pin) > 0:
                 fitted.add(id(pin))
     return len(fitted) > 1
@@ -64,5 +64,5 @@ def _has_steps(known: Known, piece: Bore, shaft: Bore) -> bool:
 
 def _closes(hole: Bore, outside: Bore) -> bool:
     """Tell whether a hole holds the outside of a piece."""
-    fits = abs(hole.radius - outside.radius) <= FITTED * hole.radius
-    return bool(fits and hole.on_axis_of(outside) and shared_length(hole, outside) > outside.radius * FITTED)
+    fits = abs(hole.radius - outside.radius) <= STEP_FIT * hole.radius
+    return bool(fits and hole.on_axis_of(outside) and shared_length(hole, outside) > outside.radius * STEP_FIT)

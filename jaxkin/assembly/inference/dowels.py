@@ -6,7 +6,7 @@ from jaxkin.assembly.inference.axes import engaged
 from jaxkin.assembly.inference.fasteners import beside
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.lines import Line, lines
+from jaxkin.assembly.inference.lines import lines
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 MIN_GUIDE = 2.5
@@ -22,15 +22,10 @@ def dowelled(known: Known) -> list[Inference]:
         pins = [each for each in line.found if not each.virtual]
         parallel = any(beside(each.one, pins[0].one) for each in pins[1:])
         short = all(engaged(each) < MIN_GUIDE * each.other.radius for each in pins)
-        if parallel and short and _lie_flat(known, line):
+        flat = (known.touches_only_across(*contact.parts, line.first.one.axis) for contact in line.touching)
+        if parallel and short and line.touching and all(flat):
             one, other = pins[0].parts
             sizes = (("axes", float(len(pins))), ("clearance", pins[0].clearance))
             text = f"{len(pins)} short parallel pins of {one!r} in {other!r}, and faces that meet around them"
             result.append(Inference(known.in_order((one, other)), Evidence(EvidenceKind.BOLT_PATTERN, sizes, text)))
     return result
-
-
-def _lie_flat(known: Known, line: Line) -> bool:
-    """Tell whether all that two bodies have in contact are plane faces across the pins."""
-    axis = line.first.one.axis
-    return bool(line.touching) and all(known.lie_flat(*contact.parts, axis) for contact in line.touching)

@@ -9,7 +9,6 @@ from jaxkin.assembly.inference.fasteners import bolted, patterns
 from jaxkin.assembly.inference.hinges import hinges
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.topology.components import connected
 
@@ -31,7 +30,7 @@ def far_joints(known: Known) -> list[Inference]:
     held = bolted(patterns(axes, [], body), known.order)
     apart = {frozenset(body[part] for part in each.parts) for each in (*set_in, *held)}
     single = [pair for pair in axes if frozenset(body[part] for part in pair.parts) not in apart]
-    return [*set_in, *held, *(each.inference for each in hinges(known, axes=single) if each.stop is Stop.NONE)]
+    return [*set_in, *held, *(each.inference for each in hinges(known, axes=single) if not each.replaces_slide)]
 
 
 def _ends_in(pair: CommonAxis) -> bool:

@@ -53,4 +53,4 @@ def _out_of(key: Part, pair: CommonAxis) -> float:
 def _is_shouldered(known: Known, pair: CommonAxis) -> bool:
     """Tell whether a hub lies on a face of its shaft across the axis."""
     shaft, hub = pair.parts
-    return hub in known.flat_on(shaft, pair.one.axis)
+    return hub in known.parts_flat_on(shaft, pair.one.axis)

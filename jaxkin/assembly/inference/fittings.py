@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis
-from jaxkin.assembly.inference.clamped import FITTED
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.set_screws import FITTED
 from jaxkin.assembly.inference.sleeves import is_hollow
 from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.geometry.surfaces import Plane
@@ -29,12 +29,16 @@ def screwed_fittings(known: Known) -> list[Inference]:
     result = []
     for pair in known.axes:
         (fitting, host), axis = pair.parts, pair.one.axis
-        if not _fits(pair) or not _is_fitting(known, pair) or not known.lie_flat(fitting, host, axis, pins=False):
+        if (
+            not _fits(pair)
+            or not _is_fitting(known, pair)
+            or not known.touches_only_across(fitting, host, axis, pins=False)
+        ):
             continue
         result.append(_held(known, pair, f"the hexagon of {fitting!r} is down on {host!r}, into which it is screwed"))
         for other in known.axes:
             tube = other.one.part
-            if other.other is pair.other and _fits(other) and known.lie_flat(fitting, tube, axis):
+            if other.other is pair.other and _fits(other) and known.touches_only_across(fitting, tube, axis):
                 text = f"{fitting!r} is tightened against the end of {tube!r} in their hole of {host!r}"
                 result.append(_held(known, other, f"{text}: both are screwed in"))
     return result

@@ -8,11 +8,11 @@ from itertools import combinations
 
 import numpy as np
 
-from jaxkin.assembly.inference.hinge import Hinge
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.stop_faces import ACROSS
-from jaxkin.assembly.inference.walls import MAX_PLAY, Looking, facing, walls
+from jaxkin.assembly.inference.stopped_joint import StoppedJoint
+from jaxkin.assembly.inference.walls import MAX_SIDE_PLAY, Looking, facing, walls
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector
 from jaxkin.geometry.surfaces import Plane
@@ -22,7 +22,7 @@ from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
 
 
-def floating(known: Known, joined: Sequence[Hinge]) -> list[Inference]:
+def floating(known: Known, joined: Sequence[StoppedJoint]) -> list[Inference]:
     """Infer the two slides of parts that are between two bodies, with walls of each on both sides.
 
     Neither body alone stops the part along the axis. Both do, where they turn about axes in that direction, by bearings
@@ -72,7 +72,7 @@ def _between(one: Sequence[Looking], other: Sequence[Looking]) -> Vector | None:
     for normal, gap, place in one:
         for back, other_gap, other_place in other:
             width = abs(place + other_place)
-            if np.linalg.norm(normal + back) < ACROSS and gap + other_gap <= MAX_PLAY * width:
+            if np.linalg.norm(normal + back) < ACROSS and gap + other_gap <= MAX_SIDE_PLAY * width:
                 return normal
     return None
 

@@ -13,7 +13,7 @@ from jaxkin.assembly.inference.stop_faces import ACROSS, WIDER, stands_across
 from jaxkin.contacts.contact import Contact
 from jaxkin.joints.evidence import EvidenceKind
 
-NEAR = 1.0
+MAX_HEAD_GAP = 1.0
 """Distance of heads from the outermost holes, over the radius of the pin, at most: with a washer that is not drawn."""
 
 
@@ -22,11 +22,6 @@ def is_head_on_tube(known: Known, contact: Contact) -> bool:
     through."""
     pairs = [pair for pair in known.axes if {*pair.parts} == {*contact.parts} and not pair.virtual]
     return any(stands_across(surface, pair.one.axis) for surface in contact.surfaces for pair in pairs)
-
-
-def lies_across(known: Known, part: str, stack: Stack) -> bool:
-    """Tell whether a part lies flat on a fastener of a stack, across the axis, as a plate on the head of a bolt."""
-    return any(known.touch_across(part, each, stack.axis.axis) for each in stack.fasteners)
 
 
 def is_headed(known: Known, stack: Stack) -> bool:
@@ -44,7 +39,7 @@ def is_headed(known: Known, stack: Stack) -> bool:
     heights = corners @ along
     wide = np.linalg.norm(corners - np.outer(heights, along), axis=1) > WIDER * radius
     heights = heights[wide] + float(stack.axis.point @ along)
-    slack = NEAR * radius
+    slack = MAX_HEAD_GAP * radius
     below, above = heights[heights <= low + slack], heights[heights >= high - slack]
     return bool(len(below) and len(above) and below.max() >= low - slack and above.min() <= high + slack)
 
@@ -65,7 +60,7 @@ def is_exposed(known: Known, stack: Stack) -> bool:
     wide = [
         hole
         for part in stack.held
-        if lies_across(known, part, stack)
+        if known.touches_across(part, along, *stack.fasteners)
         for hole in known.bores[part]
         if hole.hole and any(goes_through(pin, hole) for pin in pins)
     ]

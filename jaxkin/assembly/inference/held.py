@@ -10,12 +10,12 @@ import numpy as np
 from jaxkin.assembly.inference.axes import CommonAxis, engaged
 from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.fasteners import Stack, bolted, patterns
-from jaxkin.assembly.inference.heads import goes_through, is_exposed, is_headed, lies_across
+from jaxkin.assembly.inference.heads import goes_through, is_exposed, is_headed
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.moving_pins import moves_in_holes
 from jaxkin.assembly.inference.sleeves import SAME_FIT, is_round, is_round_about
-from jaxkin.assembly.inference.stop_faces import MAX_PLAY, nearest, play
+from jaxkin.assembly.inference.stop_faces import MAX_AXIAL_PLAY, nearest, play
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 LONG = 2.5
@@ -226,7 +226,7 @@ def _clamped_on(known: Known, stack: Stack, body: Mapping[str, str]) -> str | No
         for part in stack.held
         if part not in on
         and body[part] not in bushed
-        and lies_across(known, part, stack)
+        and known.touches_across(part, stack.axis.axis, *stack.fasteners)
         and any(goes_through(pin, hole) for hole in known.bores[part] if hole.hole for pin in pins)
     ]
     return found[0] if len({body[part] for part in found}) == 1 else None
@@ -236,7 +236,7 @@ def _is_trapped(known: Known, pin: str, hole: Bore) -> bool:
     """Tell whether faces on both sides keep a pin from sliding in the hole of a part, such as those beside a collar."""
     one, other = (known.measured.stops(known.solids[part], hole) for part in (pin, hole.part))
     room = play(one, other, hole.radius)
-    return room is not None and room <= MAX_PLAY * hole.radius
+    return room is not None and room <= MAX_AXIAL_PLAY * hole.radius
 
 
 def rollers(known: Known, fastening: Collection[str]) -> set[str]:

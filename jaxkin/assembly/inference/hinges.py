@@ -10,12 +10,12 @@ from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.bores import NEAR_LENGTH, merged
 from jaxkin.assembly.inference.fasteners import Stack, beside
 from jaxkin.assembly.inference.heads import is_exposed
-from jaxkin.assembly.inference.hinge import Hinge, hinge
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.lines import Line, lines
 from jaxkin.assembly.inference.slide_stops import Stop
-from jaxkin.assembly.inference.stop_faces import MAX_LIFT, MAX_PLAY, between_bores, nearest, play, stands_across
+from jaxkin.assembly.inference.stop_faces import MAX_AXIAL_PLAY, MAX_LIFT, between_bores, nearest, play, stands_across
+from jaxkin.assembly.inference.stopped_joint import StoppedJoint, joint_about
 from jaxkin.assembly.inference.walls import turns
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints import pairs
@@ -40,7 +40,9 @@ MAX_DISC = 0.1
 """Half the thickness of a disc, and its clearance, over the radius of its hole: washers are thinner, and looser."""
 
 
-def hinges(known: Known, fastening: Collection[str] = (), axes: Sequence[CommonAxis] | None = None) -> list[Hinge]:
+def hinges(
+    known: Known, fastening: Collection[str] = (), axes: Sequence[CommonAxis] | None = None
+) -> list[StoppedJoint]:
     """Infer joints of two bodies about common axes, by default all that are known; some are those of exact contacts but
     for the slide.
 
@@ -65,20 +67,20 @@ def hinges(known: Known, fastening: Collection[str] = (), axes: Sequence[CommonA
     return [each for some in joined.values() for each in some]
 
 
-def _is_kept(joined: Sequence[Hinge]) -> bool:
+def _is_kept(joined: Sequence[StoppedJoint]) -> bool:
     """Tell whether two bodies turn on each other and surely do not slide."""
     return not _slides(joined) and any(_is(each, JointKind.REVOLUTE) for each in joined)
 
 
-def _slides(joined: Sequence[Hinge]) -> bool:
+def _slides(joined: Sequence[StoppedJoint]) -> bool:
     return any(_is(each, JointKind.CYLINDRICAL) for each in joined)
 
 
-def _is(each: Hinge, kind: JointKind) -> bool:
+def _is(each: StoppedJoint, kind: JointKind) -> bool:
     return each.inference.joint is not None and each.inference.joint.kind is kind
 
 
-def _joined(known: Known, line: Line, fastening: Collection[str], kept: Sequence[Line]) -> list[Hinge]:
+def _joined(known: Known, line: Line, fastening: Collection[str], kept: Sequence[Line]) -> list[StoppedJoint]:
     """Make the joint of two bodies about their axis; `kept` are pairs of bodies that do not slide on each other."""
     pair, pins = line.first, line.pins
     if not line.is_alone:
@@ -133,7 +135,7 @@ def _opens(known: Known, line: Line) -> bool:
     return len(signs) == 1 and 0 not in signs
 
 
-def _hinge(known: Known, line: Line, touching: bool, fastened: bool, kept: Sequence[Line]) -> list[Hinge]:
+def _hinge(known: Known, line: Line, touching: bool, fastened: bool, kept: Sequence[Line]) -> list[StoppedJoint]:
     """Make a revolute joint where faces stop the slide, otherwise a cylindrical one unless contacts say that exactly.
 
     Faces across the axis that touch stop it, as they do beside a pin that fits exactly. A pin with play that is in the
@@ -141,8 +143,8 @@ def _hinge(known: Known, line: Line, touching: bool, fastened: bool, kept: Seque
     """
     pair, found, exact, radius = line.first, line.found, any(line.pins), line.first.other.radius
     room, near = _room(known, line, touching, kept)
-    if touching or (room is not None and room <= MAX_PLAY * radius):
-        return [hinge(known, line, Stop.FACES, 0.0 if touching else room, room, touching)]
+    if touching or (room is not None and room <= MAX_AXIAL_PLAY * radius):
+        return [joint_about(known, line, Stop.FACES, 0.0 if touching else room, room, touching)]
     far = room is not None and room > FAR * radius
     reach = _reach(found, pair)
     middles = [float(pair.other.point @ pair.one.axis)]
@@ -152,14 +154,14 @@ def _hinge(known: Known, line: Line, touching: bool, fastened: bool, kept: Seque
     centred = not far and not _is_inside(pair, found) and _is_centred(pair, middles)
     if exact:
         if fastened and near is not None and near <= MAX_LIFT * radius:
-            return [hinge(known, line, Stop.ONE_FACE, near, room)]
+            return [joint_about(known, line, Stop.ONE_FACE, near, room)]
         stop = Stop.CENTRED if centred else Stop.SHORT if jams else None
-        return [] if stop is None else [hinge(known, line, stop, 0.0, room)]
+        return [] if stop is None else [joint_about(known, line, stop, 0.0, room)]
     if jams:
-        return [hinge(known, line, Stop.SHORT, 0.0, room)]
-    slides = hinge(known, line, Stop.NONE, None, room)
+        return [joint_about(known, line, Stop.SHORT, 0.0, room)]
+    slides = joint_about(known, line, Stop.NONE, None, room)
     stop = Stop.CENTRED if centred else Stop.NO_STROKE if _has_no_stroke(pair, reach) else None
-    return [slides] if pair.virtual or far or stop is None else [slides, hinge(known, line, stop, 0.0, room)]
+    return [slides] if pair.virtual or far or stop is None else [slides, joint_about(known, line, stop, 0.0, room)]
 
 
 def _room(known: Known, line: Line, touching: bool, kept: Sequence[Line]) -> tuple[float | None, float | None]:
@@ -173,7 +175,7 @@ def _room(known: Known, line: Line, touching: bool, kept: Sequence[Line]) -> tup
         for group in groups
     )
     room, near = play(one, other, hole.radius), nearest(one, other, hole.radius)
-    if not any(line.pins) and not touching and (room is None or room > MAX_PLAY * hole.radius):
+    if not any(line.pins) and not touching and (room is None or room > MAX_AXIAL_PLAY * hole.radius):
         slanted = [
             [stop for part in rigid if body[part.name] in group for stop in known.measured.slanted_stops(part, hole)]
             for group in groups
@@ -181,7 +183,7 @@ def _room(known: Known, line: Line, touching: bool, kept: Sequence[Line]) -> tup
         rooms = (room, play([*one, *slanted[0]], [*other, *slanted[1]], hole.radius))
         room = min((each for each in rooms if each is not None), default=None)
     between = None if pair.virtual else _between(known, pair, line.found)
-    if between is not None and (between <= MAX_PLAY * hole.radius or not any(line.pins)):
+    if between is not None and (between <= MAX_AXIAL_PLAY * hole.radius or not any(line.pins)):
         room = between if room is None else min(room, between)
     return room, near
 
@@ -199,7 +201,7 @@ def _has_no_stroke(pair: CommonAxis, reach: tuple[float, float]) -> bool:
         return False
     spans = pair.one.spans_along(pair.one.axis)
     ends = [end for span in spans if span[0] < reach[1] and reach[0] < span[1] for end in span]
-    return bool(ends) and abs(max(ends) - min(ends) - (reach[1] - reach[0])) <= MAX_PLAY * pair.other.radius
+    return bool(ends) and abs(max(ends) - min(ends) - (reach[1] - reach[0])) <= MAX_AXIAL_PLAY * pair.other.radius
 
 
 def _is_centred(pair: CommonAxis, middles: Sequence[float]) -> bool:
@@ -239,17 +241,17 @@ def _between(known: Known, pair: CommonAxis, found: Sequence[CommonAxis]) -> flo
     return between_bores(owned, pair.one, spans)
 
 
-def _guided(known: Known, pair: CommonAxis) -> Hinge:
+def _guided(known: Known, pair: CommonAxis) -> StoppedJoint:
     """Make a prismatic joint along two or more parallel pins with play, such as guide rods."""
     parts = known.in_order(pair.parts)
     joint = pairs.prismatic("-".join(parts), *parts, point=pair.other.point, axis=pair.one.axis)
     sizes = (("radius", pair.other.radius), ("clearance", pair.clearance))
     text = f"parallel pins, one of radius {pair.one.radius:.4g} with a clearance of {pair.clearance:.2g}, guide it"
     evidence = Evidence(EvidenceKind.CLEARANCE, sizes, text)
-    return Hinge(Inference.of(joint, evidence), Stop.NONE)
+    return StoppedJoint(Inference.of(joint, evidence), Stop.NONE, replaces_slide=False)
 
 
-def _walled(known: Known, line: Line, exact: bool) -> list[Hinge]:
+def _walled(known: Known, line: Line, exact: bool) -> list[StoppedJoint]:
     """Make a prismatic joint along a pin where walls beside the axis keep a body from turning on it, such as a finger
     in a slot, or a jaw with its neck in one; beside a pin with play the walls of the same two parts."""
     pair, body = line.first, known.body
@@ -266,4 +268,4 @@ def _walled(known: Known, line: Line, exact: bool) -> list[Hinge]:
     fit = "fits" if exact else f"has a clearance of {pair.clearance:.2g}"
     text = f"the pin of radius {pair.one.radius:.4g} {fit}; walls beside it leave a turn of {angle:.2g} rad"
     evidence = Evidence(EvidenceKind.CLEARANCE, (("radius", pair.other.radius), ("turn", angle)), text)
-    return [Hinge(Inference.of(joint, evidence), Stop.FACES if exact else Stop.NONE)]
+    return [StoppedJoint(Inference.of(joint, evidence), Stop.FACES, exact)]

@@ -9,7 +9,6 @@ from jaxkin.assembly.inference.ball_joints import ball_joints
 from jaxkin.assembly.inference.bearing_joints import bearing_bodies, bearing_joints
 from jaxkin.assembly.inference.bearings import outside_of
 from jaxkin.assembly.inference.carriages import carriages
-from jaxkin.assembly.inference.clamped import bolted_balls, clamped_hubs, locked_threads
 from jaxkin.assembly.inference.closed_bearing_joints import (
     closed_bearing_bodies,
     closed_bearing_joints,
@@ -32,17 +31,20 @@ from jaxkin.assembly.inference.held import (
 )
 from jaxkin.assembly.inference.hinges import hinges
 from jaxkin.assembly.inference.inference import Inference
-from jaxkin.assembly.inference.islands import lying_on_one, sunk_in_siblings, tied_to_nothing
 from jaxkin.assembly.inference.keyed import flatted_hubs, keyed_hubs, squared_hubs
 from jaxkin.assembly.inference.known import Known, Pair
+from jaxkin.assembly.inference.lock_nuts import locked_threads
+from jaxkin.assembly.inference.lying_on_one import lying_on_one
 from jaxkin.assembly.inference.measured import Measured
 from jaxkin.assembly.inference.motors import motor_shafts
 from jaxkin.assembly.inference.on_rings import clamped_on_rings
 from jaxkin.assembly.inference.one_screw import clamped_by_one_screw
 from jaxkin.assembly.inference.pinned_slides import pinned_slides
 from jaxkin.assembly.inference.retaining_rings import retaining_rings
+from jaxkin.assembly.inference.rod_end_bolts import bolted_balls
 from jaxkin.assembly.inference.screwed import screwed_bodies, screwed_in
 from jaxkin.assembly.inference.set_on import set_on_pins
+from jaxkin.assembly.inference.set_screws import clamped_hubs
 from jaxkin.assembly.inference.shoes import shoes
 from jaxkin.assembly.inference.shouldered import pressed_on_shoulders
 from jaxkin.assembly.inference.sleeves import (
@@ -62,6 +64,7 @@ from jaxkin.assembly.inference.tapers import self_holding_tapers
 from jaxkin.assembly.inference.tight_ends import bolted_ends, pressed_pins, riveted_studs, screwed_on_ends
 from jaxkin.assembly.inference.tube_clamps import clamped_halves, u_bolts
 from jaxkin.assembly.inference.undrawn import empty_nuts, lone_screws, screwed_flat
+from jaxkin.assembly.inference.untied import sunk_in_siblings, tied_to_nothing
 from jaxkin.contacts.contact import Contacts
 from jaxkin.joints.joint import Joint
 
@@ -161,7 +164,7 @@ def infer(
     known.take(shoes(known))
     known.take([*pinned_slides(known), *dowelled(known)])
     turning = closed_bearing_joints(known, closed)
-    known.take([each.inference for each in turning if each.stop is Stop.NONE])
+    known.take([each.inference for each in turning if not each.replaces_slide])
     body = known.body
     borne = {frozenset(body[part] for part in each.inference.parts) for each in turning}
     others = hinges(known, fastening)
@@ -169,7 +172,7 @@ def infer(
     guided = guided_on_faces(known)
     joined += [*set_on_pins(known, joined), *guided]
     known.take(floating(known, joined))
-    known.take([each.inference for each in joined if each.stop is Stop.NONE and each not in turning])
+    known.take([each.inference for each in joined if not each.replaces_slide and each not in turning])
     known.take(loose_slides(known))
     known.take(carriages(known))
 
@@ -183,6 +186,7 @@ def infer(
 
     # what would stop slides that contacts allow, by how sure it is
     body = known.body
-    stops = [each for each in joined if len({body[part] for part in each.inference.parts}) > 1]
-    levels = [[each.inference for each in stops if each.stop is level] for level in Stop if level is not Stop.NONE]
-    return Inferred(known.found, levels)
+    replacing = [
+        each for each in joined if each.replaces_slide and len({body[part] for part in each.inference.parts}) > 1
+    ]
+    return Inferred(known.found, [[each.inference for each in replacing if each.stop is level] for level in Stop])

@@ -89,17 +89,18 @@ class Known:
                 found.setdefault(body[other.name], []).append(other)
         return found
 
-    def touch_across(self, one: str, other: str, axis: Vector) -> bool:
-        """Tell whether two parts have a plane face across an axis in contact."""
-        return any(stands_across(each.surfaces[0], axis) for each in self.between.get(frozenset((one, other)), ()))
+    def touches_across(self, part: str, axis: Vector, *others: str) -> bool:
+        """Tell whether a part has a plane face across an axis in contact with one of others."""
+        contacts = (each for other in others for each in self.between.get(frozenset((part, other)), ()))
+        return any(stands_across(each.surfaces[0], axis) for each in contacts)
 
-    def lie_flat(self, one: str, other: str, axis: Vector, pins: bool = True) -> bool:
+    def touches_only_across(self, one: str, other: str, axis: Vector, pins: bool = True) -> bool:
         """Tell whether all that two parts have in contact are plane faces across an axis, `pins` in holes included."""
         some = self.between.get(frozenset((one, other)), ())
         across = [stands_across(each.surfaces[0], axis) for each in some if pins or not each.contact_state.is_pin]
         return bool(across) and all(across)
 
-    def flat_on(self, part: str, axis: Vector) -> list[str]:
+    def parts_flat_on(self, part: str, axis: Vector) -> list[str]:
         """Find the parts that lie flat on a part, across an axis."""
         some = [each for each in self._flat.get(part, ()) if stands_across(each.surfaces[0], axis)]
         return list(dict.fromkeys(each.parts[part == each.parts[0]] for each in some))

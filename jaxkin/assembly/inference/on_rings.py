@@ -47,7 +47,7 @@ def _stack(known: Known, ring: str, axis: Bore, shut_out: set[str]) -> list[str]
 def _flat_on(known: Known, part: str, axis: Bore) -> list[str]:
     """Find the parts that lie flat on a part across an axis, and have a hole or a pin there that the axis goes
     through."""
-    lying = known.flat_on(part, axis.axis)
+    lying = known.parts_flat_on(part, axis.axis)
     return [other for other in lying if any(_is_around(bore, axis) for bore in known.bores[other])]
 
 

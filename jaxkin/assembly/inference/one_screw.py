@@ -9,7 +9,6 @@ import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.fasteners import Stack, beside
-from jaxkin.assembly.inference.heads import lies_across
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sleeves import SAME_FIT
@@ -116,9 +115,9 @@ def _under_head(known: Known, stack: Stack, body: Mapping[str, str]) -> list[_Cl
         screw, host = inner.parts
         for part, pair in holes.items():
             apart = body[part] != body[host] and pair.one.part == screw
-            if apart and lies_across(known, part, stack):
+            if apart and known.touches_across(part, stack.axis.axis, *stack.fasteners):
                 flag = _is_flag(known, part, host, inner)
-                flat = _is_wide(pair) and known.lie_flat(part, host, inner.one.axis, pins=not flag)
+                flat = _is_wide(pair) and known.touches_only_across(part, host, inner.one.axis, pins=not flag)
                 if flat or _beside(known, part, host, inner, body):
                     why = f"{screw!r} is tight in {host!r}, and its head lies on {part!r}, through which it goes"
                     result.append(_Clamped(part, host, pair, inner, () if flag else (part,), why))
@@ -128,11 +127,16 @@ def _under_head(known: Known, stack: Stack, body: Mapping[str, str]) -> list[_Cl
 def _on_bolt(known: Known, stack: Stack, body: Mapping[str, str]) -> list[_Clamped]:
     """Find two parts, flat on each other, between the head of a bolt and its nut."""
     with_hole = [all(bore.hole for bore in known.bores[part]) for part in stack.fasteners]
-    holes = {part: pair for part, pair in _holes(known, stack).items() if lies_across(known, part, stack)}
+    axis, own = stack.axis.axis, stack.fasteners
+    holes = {part: pair for part, pair in _holes(known, stack).items() if known.touches_across(part, axis, *own)}
     if not any(with_hole) or all(with_hole) or len(holes) != 2 or not all(map(_is_wide, holes.values())):
         return []
     (part, through), (host, inner) = holes.items()
-    if body[part] == body[host] or through.one is not inner.one or not known.lie_flat(part, host, inner.one.axis):
+    if (
+        body[part] == body[host]
+        or through.one is not inner.one
+        or not known.touches_only_across(part, host, inner.one.axis)
+    ):
         return []
     why = f"{inner.one.part!r} and its nut hold {part!r} on {host!r}, through both of which it goes"
     return [_Clamped(part, host, through, inner, (part, host), why)]

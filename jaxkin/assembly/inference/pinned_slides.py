@@ -14,7 +14,7 @@ from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.assembly.inference.walls import turns
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
-MAX_OPEN = np.deg2rad(60.0)
+MAX_HOLE_ARC = np.deg2rad(60.0)
 """The widest angle that a hole leaves open, at most: holes are tessellated by less, the end of a slot is open by half,
 and leaves its pin a stroke."""
 
@@ -40,7 +40,7 @@ def pinned_slides(known: Known) -> list[Inference]:
 
 def _is_round(known: Known, hole: Bore) -> bool:
     """Tell whether a hole goes all the way round its pin."""
-    return bool(opening_of(hole, known.solids[hole.part]) <= MAX_OPEN)
+    return bool(opening_of(hole, known.solids[hole.part]) <= MAX_HOLE_ARC)
 
 
 def _held(known: Known, pair: CommonAxis, part: str, play: float) -> Inference:

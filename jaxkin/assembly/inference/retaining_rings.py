@@ -11,7 +11,7 @@ from jaxkin.assembly.inference.sleeves import GROOVE
 from jaxkin.assembly.inference.stop_faces import play
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
-THIN = 0.6
+MAX_RING_WIDTH = 0.6
 """Width of a retaining ring over the radius of its groove, at most: those of DIN 471 have 0.1 to 0.3."""
 
 
@@ -34,7 +34,7 @@ def retaining_rings(known: Known) -> list[Inference]:
 def _is_in_groove(known: Known, pair: CommonAxis, ring: str, host: str) -> bool:
     """Tell whether a thin part is between faces of another one that leave it little room along an axis."""
     width = float(np.ptp(known.solids[ring].outermost @ pair.one.axis))
-    if width > THIN * pair.other.radius:
+    if width > MAX_RING_WIDTH * pair.other.radius:
         return False
     own, other = (known.measured.stops(known.solids[part], pair.other) for part in (ring, host))
     room = play(own, other, pair.other.radius)

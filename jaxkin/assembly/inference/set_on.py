@@ -8,7 +8,6 @@ from collections.abc import Sequence
 import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis
-from jaxkin.assembly.inference.hinge import Hinge
 from jaxkin.assembly.inference.hinges import MIN_GUIDED
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
@@ -16,15 +15,16 @@ from jaxkin.assembly.inference.lines import Line, lines
 from jaxkin.assembly.inference.sleeves import SAME_FIT
 from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.assembly.inference.stop_faces import ACROSS
+from jaxkin.assembly.inference.stopped_joint import StoppedJoint
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.topology.components import connected
 
-FITTED = 0.02
+MAX_BEARING_OFFSET = 0.02
 """Distance of the axis of a bearing from that of its shaft, over the radius of the shaft, at most."""
 
 
-def set_on_pins(known: Known, joined: Sequence[Hinge]) -> list[Hinge]:
+def set_on_pins(known: Known, joined: Sequence[StoppedJoint]) -> list[StoppedJoint]:
     """Find bodies that do not move on the pin that they fit exactly, though exact contacts let them slide.
 
     What is `joined` by a hinge already is left to that.
@@ -50,10 +50,10 @@ def set_on_pins(known: Known, joined: Sequence[Hinge]) -> list[Hinge]:
     return result
 
 
-def _held(known: Known, pair: CommonAxis, text: str, length: tuple[str, float], stop: Stop) -> Hinge:
+def _held(known: Known, pair: CommonAxis, text: str, length: tuple[str, float], stop: Stop) -> StoppedJoint:
     parts = known.in_order(pair.parts)
     evidence = Evidence(EvidenceKind.FASTENER, (("radius", pair.other.radius), length), f"{pair.other.part!r}: {text}")
-    return Hinge(Inference(parts, evidence), stop)
+    return StoppedJoint(Inference(parts, evidence), stop, replaces_slide=True)
 
 
 def _jams(known: Known, line: Line) -> float | None:
@@ -96,7 +96,7 @@ def _turning(known: Known, line: Line) -> str | None:
             and shaft in {body[part] for part in each.parts}
             and body[housing] != hub
             and np.linalg.norm(np.cross(frame[:3, 2], pair.one.axis)) < ACROSS
-            and apart <= FITTED * pair.one.radius
+            and apart <= MAX_BEARING_OFFSET * pair.one.radius
             and not _is_tied(known, hub, shaft)
         ):
             return housing

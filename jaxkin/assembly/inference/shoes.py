@@ -10,7 +10,7 @@ from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.floating import wall_across
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.stop_faces import ACROSS, MAX_PLAY, stands_across
+from jaxkin.assembly.inference.stop_faces import ACROSS, MAX_AXIAL_PLAY, stands_across
 from jaxkin.assembly.inference.walls import Looking, facing
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector
@@ -38,7 +38,7 @@ def shoes(known: Known) -> list[Inference]:
                 continue
             looking, back = facing(shoe, beside), facing(shoe, around.get(carrier, ()))
             wall, room = wall_across(looking, axis), _room(looking, back, axis)
-            if wall is None or room is None or room > MAX_PLAY * pair.other.radius:
+            if wall is None or room is None or room > MAX_AXIAL_PLAY * pair.other.radius:
                 continue
             normal, play = wall
             result.append(_slide(known, shoe, beside[0], np.cross(normal, axis), play))

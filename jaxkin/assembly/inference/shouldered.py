@@ -50,7 +50,7 @@ def _pressed(known: Known, nut: str, shaft: str, on: Collection[str], axis: Bore
     """Find the parts on a thread that lie flat on each other from a nut on, and whether one lies on the shaft."""
     found, shouldered = [nut], False
     for part in found:  # grows while it is read
-        for other in known.flat_on(part, axis.axis):
+        for other in known.parts_flat_on(part, axis.axis):
             shouldered |= other == shaft
             found += [other] if other in on and other not in found else []
     return {*found}, shouldered

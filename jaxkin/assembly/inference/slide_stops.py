@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from enum import IntEnum
 
-from jaxkin.assembly.inference.stop_faces import MAX_PLAY
+from jaxkin.assembly.inference.stop_faces import MAX_AXIAL_PLAY
 from jaxkin.joints.evidence import Doubt
 from jaxkin.joints.kinds import JointKind
 
@@ -13,10 +13,10 @@ NEAR_LIMIT = 2.0
 
 
 class Stop(IntEnum):
-    """What stops a slide along a common axis that exact contacts allow, the surest first."""
+    """What stops a slide, the surest first."""
 
     NONE = 0
-    """The joint is not one of exact contacts."""
+    """Nothing."""
     FACES = 1
     """Faces on both sides."""
     ONE_FACE = 2
@@ -49,7 +49,7 @@ def slide_doubt(stop: Stop, room: float | None, radius: float) -> Doubt | None:
     """
     if stop in _WHY:
         return Doubt(JointKind.CYLINDRICAL, _WHY[stop])
-    limit = MAX_PLAY * radius
+    limit = MAX_AXIAL_PLAY * radius
     if room is None or not limit / NEAR_LIMIT < room < limit * NEAR_LIMIT:
         return None
     kind = JointKind.CYLINDRICAL if room <= limit else JointKind.REVOLUTE

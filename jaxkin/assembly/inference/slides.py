@@ -7,12 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.assembly.inference.hinge import Hinge
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.assembly.inference.stop_faces import ACROSS
-from jaxkin.assembly.inference.walls import MAX_PLAY, Looking, between_faces, facing, walls
+from jaxkin.assembly.inference.stopped_joint import StoppedJoint
+from jaxkin.assembly.inference.walls import MAX_SIDE_PLAY, Looking, between_faces, facing, walls
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector
 from jaxkin.geometry.surfaces import Plane
@@ -47,7 +47,7 @@ def loose_slides(known: Known) -> list[Inference]:
     return result
 
 
-def guided_on_faces(known: Known) -> list[Hinge]:
+def guided_on_faces(known: Known) -> list[StoppedJoint]:
     """Infer prismatic joints of bodies that lie flat on each other, with walls of one on both sides of the other, which
     leave it a play: a jaw on its ways. Exact contacts let it slide both ways and turn; the walls stop that where it is
     of use, and wherever a pin drives the body, whose links may keep it in line as well.
@@ -89,7 +89,7 @@ def guided_on_faces(known: Known) -> list[Hinge]:
             joint = pairs.prismatic("-".join(parts), *parts, point=part.box.mean(axis=0), axis=axis)
             loose = owners - {body[part] for part in known.fixed}  # a pin drives what has an axis with a third body
             driven = all(any(owner in pair and not pair <= owners for pair in about) for owner in loose)
-            result.append(Hinge(Inference.of(joint, evidence), Stop.NONE if driven else Stop.FACES))
+            result.append(StoppedJoint(Inference.of(joint, evidence), Stop.FACES, not driven))
     return result
 
 
@@ -129,7 +129,7 @@ def slide_between(one: Part, others: Sequence[Part]) -> tuple[Vector, float] | N
                 min((gap / abs(along) for along, gap in gaps if side * along > MIN_SLANT), default=np.inf)
                 for side in (1, -1)
             )
-            if ahead + behind <= MAX_PLAY * width:
+            if ahead + behind <= MAX_SIDE_PLAY * width:
                 return axis, max(play, ahead + behind)
     return None
 
@@ -162,7 +162,7 @@ def _dovetail(one: Part, others: Sequence[Part]) -> tuple[Vector, float] | None:
             along = [each for each in looking if abs(each[0] @ axis) < ACROSS]
             room = _room([(normal @ across, gap) for normal, gap, _ in along])
             width = _room([(normal @ across, place - normal @ middle) for normal, _, place in along])
-            if room is not None and width is not None and np.all(room <= MAX_PLAY * width):
+            if room is not None and width is not None and np.all(room <= MAX_SIDE_PLAY * width):
                 return axis, float(room.max())
     return None
 

@@ -19,7 +19,7 @@ from jaxkin.geometry.pose import Vector
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
-SLOT = (1.05, 4.0)
+PROFILE_SLOT = (1.05, 4.0)
 """Distance of the walls of a slot from the axis of a screw in it, over its radius: profiles of 20 to 45 mm have 1.2 to
 2 with the screws they are made for. A pin that the slot guides fills it."""
 
@@ -63,4 +63,4 @@ def _in_slot(screw: Bore, part: Part) -> bool:
     """Tell whether a screw ends between two walls of a part, with a floor of it ahead."""
     if not len(crossings(screw.point, screw.axis, part.triangles)):
         return False
-    return bool(walls_beside(screw, part, SLOT))
+    return bool(walls_beside(screw, part, PROFILE_SLOT))

@@ -12,7 +12,7 @@ from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector
 from jaxkin.geometry.surfaces import Sphere
 
-MAX_CLEARANCE = 0.1
+MAX_BALL_CLEARANCE = 0.1
 """Radial clearance over the radius of the socket, at most."""
 MIN_SHARE = 0.2
 """Share of a whole sphere that faces of a ball and of its socket have, at least: rounded corners have an eighth."""
@@ -54,15 +54,15 @@ class Socket(NamedTuple):
 def sockets(parts: Iterable[Part], clearance: float | None = None) -> list[Socket]:
     """Find the balls of parts that are in sockets of others.
 
-    `clearance` is the largest radial clearance, in the unit of the file; by default MAX_CLEARANCE times the radius of
-    the socket.
+    `clearance` is the largest radial clearance, in the unit of the file; by default MAX_BALL_CLEARANCE times the
+    radius of the socket.
     """
     spheres = [sphere for part in parts for sphere in _spheres(part)]
     found = []
     for hole in (each for each in spheres if each.hole):
         for ball in (each for each in spheres if not each.hole and each.part != hole.part):
             pair = Socket(ball, hole)
-            most = MAX_CLEARANCE * hole.radius if clearance is None else clearance
+            most = MAX_BALL_CLEARANCE * hole.radius if clearance is None else clearance
             fits = -MAX_INTERFERENCE * hole.radius <= pair.clearance <= most
             if fits and pair.offset <= max(pair.clearance, 0.0) + MAX_OFFSET * hole.radius:
                 found.append(pair)

@@ -19,7 +19,7 @@ from jaxkin.joints.evidence import Evidence, EvidenceKind
 LOOSE = 0.08
 """Radial clearance of a spring about its rod, over the radius of the rod, at least: tubes that are springs have 0.10 to
 0.15 in 4 kinds of machines, spacers, bushes and sleeves up to 0.056 in 16."""
-THIN = 0.45
+MAX_WIRE = 0.45
 """Thickness of the wall over the outer radius, at most: that of a spring is its wire. Springs have 0.20 to 0.43,
 spacers 0.40 to 0.56."""
 SLENDER = 1.0
@@ -83,7 +83,7 @@ def _tube(part: Part, own: Sequence[Bore]) -> tuple[Bore, Bore] | None:
     if len(holes) != 1 or len(pins) != 1 or len(planes) != 2 or len(planes) + len(round_faces) != len(part.faces):
         return None
     hole, pin = holes[0], pins[0]
-    thin = pin.radius - hole.radius <= THIN * pin.radius and pin.half >= SLENDER * pin.radius
+    thin = pin.radius - hole.radius <= MAX_WIRE * pin.radius and pin.half >= SLENDER * pin.radius
     return (hole, pin) if thin and hole.on_axis_of(pin) else None
 
 

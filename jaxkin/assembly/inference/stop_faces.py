@@ -18,7 +18,7 @@ ACROSS = 1e-3
 """Radians between an axis and the normal of a face that stands across it."""
 REACH = 3.0
 """Faces that stop a hinge come nearer to its axis than this, over the radius of its hole: shoulders, washers."""
-MAX_PLAY = 3.0
+MAX_AXIAL_PLAY = 3.0
 """Play of a hinge along its axis, over the radius, in all: a link between two lugs, with washers that are not drawn.
 What slides on purpose has a stroke of more."""
 MAX_LIFT = 0.5

@@ -14,7 +14,7 @@ from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 CLOSED = 0.02
 """Play of a part between a head and a collar of its stud, over the radius, that counts as none."""
-THIN = 0.4
+MAX_RING_LENGTH = 0.4
 """Length of a hole over its diameter, at most, of a ring that is no nut and no end of a rod: nuts have 0.5 to 1."""
 MIN_LOOSE = 0.045
 """Clearance of a screw in what it clamps on the end of a rod, over the radius of the hole, at least: M5 to M10 have
@@ -103,8 +103,8 @@ def screwed_on_ends(known: Known) -> list[Inference]:
             if end.virtual or end.other.part != shaft or screw == hub or not end.other.on_axis_of(pair.one):
                 continue
             under = {screw, *(each.other.part for each in known.axes if each.one is end.one)} - {shaft, hub}
-            washers = {part for part in under if known.touch_across(screw, part, pair.one.axis)}
-            if any(known.touch_across(part, hub, pair.one.axis) for part in (screw, *washers)):
+            washers = {part for part in under if known.touches_across(screw, pair.one.axis, part)}
+            if known.touches_across(hub, pair.one.axis, screw, *washers):
                 text = f"{screw!r} in the end of {shaft!r} holds {hub!r}, which fits the shaft exactly"
                 result.append(_held(known, pair, text))
     return result
@@ -122,7 +122,7 @@ def bolted_ends(known: Known) -> list[Inference]:
         rod = end.other.part
         if end.virtual or abs(end.clearance) > SAME_FIT * end.other.radius or not is_round_about(known, rod, end.other):
             continue
-        if end.other.half < THIN * end.other.radius:
+        if end.other.half < MAX_RING_LENGTH * end.other.radius:
             continue  # a retaining ring on the end of a pin
         found += [(rod, through) for through in known.axes if _grips(known, end, through)]
     ground, result = {body[part] for part in known.fixed}, []
@@ -142,7 +142,7 @@ def _grips(known: Known, end: CommonAxis, through: CommonAxis) -> bool:
     if through.one.part != screw or part == rod or not through.one.on_axis_of(end.one):
         return False
     loose = through.clearance >= MIN_LOOSE * through.other.radius
-    gripped = all(known.touch_across(each, part, axis) for each in (screw, rod))
+    gripped = all(known.touches_across(each, axis, part) for each in (screw, rod))
     return loose and gripped and not is_round_about(known, part, through.other)
 
 

@@ -12,13 +12,11 @@ from jaxkin.assembly.inference.collets import is_piece
 from jaxkin.assembly.inference.fasteners import parallel
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.set_screws import FITTED
 from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.assembly.inference.walls import facing
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
-FITTED = 0.02
-"""Clearance of a tube in the halves of a clamp, or between the legs of a U-bolt, over its radius, at most: a bearing in
-halves that is drawn with a gap has more."""
 SPLIT = (0.02, 0.5)
 """Gap between two halves over the radius of the tube: that of a bearing in halves is none, and it is not pinched."""
 

@@ -108,7 +108,7 @@ def lone_screws(known: Known) -> list[Inference]:
     for owners, found in common.items():
         one, other = found[0].one, found[0].other
         touching = [each for each in known.contacts if {body[part] for part in each.parts} == owners]
-        lie = [known.lie_flat(*each.parts, one.axis) for each in touching]
+        lie = [known.touches_only_across(*each.parts, one.axis) for each in touching]
         if len(found) == 1 and found[0].tapped and len(owners) == 2 and owners not in jointed and lie and all(lie):
             others = connected({*body.values()}, [(*tie,) for tie in ties if tie != owners and len(tie) == 2])
             if any(owners <= {*group} for group in others):

@@ -12,7 +12,7 @@ from jaxkin.geometry.part import Face, Part
 from jaxkin.geometry.pose import Vector
 from jaxkin.geometry.surfaces import Plane
 
-MAX_PLAY = 0.06
+MAX_SIDE_PLAY = 0.06
 """Play of a part between two faces, over its width there, in all: drawers that people drew have half a
 millimetre on each side of 20."""
 TOUCHING = 1e-3
@@ -46,7 +46,7 @@ def walls(found: Sequence[Looking]) -> list[tuple[Vector, float, float]]:
         return []
     normals, gaps, places = (np.array(each) for each in zip(*found, strict=True))
     plays, widths = gaps[:, None] + gaps, np.abs(places[:, None] + places)
-    both = np.argwhere(np.tril(_are_opposite(normals, normals) & (plays <= MAX_PLAY * widths), -1))
+    both = np.argwhere(np.tril(_are_opposite(normals, normals) & (plays <= MAX_SIDE_PLAY * widths), -1))
     return [(found[i][0], float(plays[i, j]), float(widths[i, j])) for i, j in both.tolist()]
 
 

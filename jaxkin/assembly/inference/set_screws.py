@@ -1,8 +1,8 @@
-"""What screws across a shaft, nuts that lock a thread and bolts through balls hold together."""
+"""Screws across a shaft, which hold a hub on it: set screws, pins, and those that draw a slit together."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection
 from itertools import pairwise
 
 import numpy as np
@@ -16,13 +16,13 @@ from jaxkin.assembly.inference.motors import screw_holes
 from jaxkin.assembly.inference.screwed import MAX_SHORTFALL
 from jaxkin.assembly.inference.sleeves import SAME_FIT, is_hollow, is_round, is_round_about
 from jaxkin.assembly.inference.slots import walls_beside
-from jaxkin.assembly.inference.sockets import Socket
 from jaxkin.assembly.inference.standing import on_floors
-from jaxkin.assembly.inference.stop_faces import ACROSS, WIDER, gap, stands_across
+from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 FITTED = 0.02
-"""Clearance of a shaft in a hub that is clamped on it, or of a thread drawn as a plain cylinder, over the radius."""
+"""Clearance of a shaft or tube in what is clamped on it, or of a thread drawn as a plain cylinder, over the radius: a
+bearing in halves that is drawn with a gap has more."""
 DRAWN_TOGETHER = 0.05
 """The same of a shaft in a hub with a slit, which a screw draws together."""
 MAX_ACROSS = 0.6
@@ -36,7 +36,7 @@ MAX_BESIDE = 3.0
 """Distance of the screw of a slit from the axis of the shaft, over the radius of the shaft, at most."""
 MAX_SLIT = 0.5
 """Width of a slit over the radius of the shaft, at most: a fork is wider."""
-SLOT = (0.98, 1.5)
+TIP_SLOT = (0.98, 1.5)
 """Distance of the walls of a slot from the axis of a screw that it guides, over the radius of the tip."""
 MIN_STROKE = 2.0
 """Length of such a slot over the width of the tip, at least."""
@@ -55,8 +55,9 @@ def clamped_hubs(known: Known, fastening: Collection[str]) -> list[Inference]:
     or in a slit whose screw is drawn, as the steerer of a fork does.
     """
     result, on = [], on_floors(known)
-    near = DRAWN_TOGETHER
-    pins = [pair for pair in known.axes if not pair.virtual and abs(pair.clearance) <= near * pair.other.radius]
+    pins = [
+        pair for pair in known.axes if not pair.virtual and abs(pair.clearance) <= DRAWN_TOGETHER * pair.other.radius
+    ]
     housed = {pair.one.part for pair in known.axes if not pair.virtual}
     inside: dict[int, set[str]] = {}
     for pair in (*known.axes, *known.tapped):
@@ -135,9 +136,9 @@ def _is_slit(known: Known, hole: Bore, pair: CommonAxis) -> bool:
 def _is_clamp(known: Known, hole: Bore, pair: CommonAxis, pins: Collection[str], fastening: Collection[str]) -> bool:
     """Tell whether a hole across a shaft is that of a screw: one that is not drawn, or a fastener beside the shaft that
     is in no other part."""
-    beside = _from_axis(hole, pair) > pair.one.radius
+    aside = _from_axis(hole, pair) > pair.one.radius
     hosts = {each.other.part for each in known.axes if each.one.part in pins and not each.virtual}
-    return not pins or (beside and {*pins} <= {*fastening} and hosts <= {pair.other.part})
+    return not pins or (aside and {*pins} <= {*fastening} and hosts <= {pair.other.part})
 
 
 def _is_released(known: Known, pins: Collection[str], others: Collection[str]) -> bool:
@@ -182,7 +183,7 @@ def _runs_in_slot(known: Known, screw: str, pair: CommonAxis) -> bool:
     return any(
         abs(normal @ axis) < ACROSS
         for tip in tips
-        for normal in walls_beside(tip, shaft, SLOT, MIN_STROKE * 2 * tip.radius)
+        for normal in walls_beside(tip, shaft, TIP_SLOT, MIN_STROKE * 2 * tip.radius)
     )
 
 
@@ -212,88 +213,3 @@ def _passes(known: Known, screw: CommonAxis, pair: CommonAxis, short: float, fas
 def _is_bush(known: Known, pin: Bore) -> bool:
     """Tell whether a pin is the outside of a bush, which presses on no shaft."""
     return is_hollow(known, pin.part, [bore for bore in known.bores[pin.part] if bore.on_axis_of(pin)])
-
-
-def locked_threads(known: Known, fastening: Collection[str]) -> list[Inference]:
-    """Join parts of which one is screwed into the other, as a rod end or an adjusting screw is: a nut lies on the other
-    part, flat or on its round side, and nothing but the thread pulls it there.
-
-    A pin whose head or second nut stands beyond the other part is that of a hinge, or of a clamp. A washer there, loose
-    on the pin and away from the other part, is pressed on something else.
-    """
-    result = []
-    for on_nut in known.axes:
-        pin, nut = on_nut.one, on_nut.other.part
-        if on_nut.virtual or nut not in fastening or not all(bore.hole for bore in known.bores[nut]):
-            continue
-        threads = [pair for pair in known.axes if pair.one.part == pin.part and pair.one.on_axis_of(pin)]
-        for pair in threads:
-            host = pair.other.part
-            fits = pair.threaded or abs(pair.clearance) <= FITTED * pair.other.radius
-            if host == nut or not fits or not _lies_on(known, nut, host, pin):
-                continue
-            after = float((on_nut.other.point - pair.other.point) @ pin.axis)
-            others = [
-                each.other for each in threads if each.other.part not in (nut, host) and _presses(known, each, host)
-            ]
-            beyond = any(float((each.point - pair.other.point) @ pin.axis) * after < 0 for each in others)
-            own, theirs = (known.measured.stops(known.solids[part], pair.other) for part in (pin.part, host))
-            ahead = after * float(pin.axis @ pair.other.axis) > 0
-            own = [stop for stop in own if stop.outer > WIDER * pair.other.radius]  # its end passes through the hole
-            one, other = (own, theirs) if ahead else (theirs, own)
-            if not beyond and gap(one, other, pair.other.radius) is None:
-                text = f"{pin.part!r} is screwed into {host!r} and locked by {nut!r}"
-                parts = known.in_order((pin.part, host, nut))
-                sizes = (("radius", pin.radius), ("clearance", pair.clearance))
-                result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
-    return result
-
-
-def _presses(known: Known, on_pin: CommonAxis, host: str) -> bool:
-    """Tell whether what is on a pin may press on a part there: it is tight on the pin, or touches the part."""
-    tight = on_pin.clearance <= FITTED * on_pin.other.radius
-    return tight or frozenset((on_pin.other.part, host)) in known.touching
-
-
-def _lies_on(known: Known, one: str, other: str, axis: Bore) -> bool:
-    """Tell whether two parts touch with a plane face across an axis: on a plane one, or on a round side."""
-    contacts = known.between.get(frozenset((one, other)), ())
-    return any(stands_across(face, axis.axis) for each in contacts for face in each.surfaces)
-
-
-def bolted_balls(known: Known) -> list[Inference]:
-    """Join the balls of rod ends with the bolts through them, and with what these bolts hold flat against the balls.
-
-    What turns does so about the middle of the ball, in the race of the rod end.
-    """
-    result = []
-    for socket in known.sockets:
-        ball, race = socket.parts
-        for pair in known.axes:
-            if ball not in pair.parts or race in pair.parts or not _through(socket, pair):
-                continue
-            bolt = pair.one if pair.one.part != ball else pair.other
-            on = [each for each in known.axes if bolt.part in each.parts and each.one.on_axis_of(bolt)]
-            parts = {part for each in on for part in each.parts} - {race}
-            if len(held := _stacked(known, ball, parts, bolt)) > 1:
-                text = f"{bolt.part!r} holds the ball {ball!r} of the rod end {race!r}"
-                names = known.in_order({*held, bolt.part})
-                sizes = (("radius", bolt.radius),)
-                result.append(Inference(names, Evidence(EvidenceKind.FASTENER, sizes, text)))
-    return result
-
-
-def _through(socket: Socket, pair: CommonAxis) -> bool:
-    """Tell whether an axis that a ball with a hole has in common with another part goes through its middle."""
-    bore = pair.one if pair.one.part == socket.ball.part else pair.other
-    offset = socket.ball.centre - bore.point
-    apart = np.linalg.norm(offset - (offset @ bore.axis) * bore.axis)
-    return bore.hole and bool(apart <= FITTED * socket.ball.radius)
-
-
-def _stacked(known: Known, ball: str, parts: Collection[str], axis: Bore) -> Sequence[str]:
-    """Find the parts that lie flat on a ball, and on those that do, across an axis."""
-    found = [ball]
-    for part in found:  # grows while it is read
-        found += [other for other in known.flat_on(part, axis.axis) if other in parts and other not in found]
-    return found

@@ -1,4 +1,4 @@
-"""The joint of two bodies about a common axis, and how it is told."""
+"""Inferences that may replace a joint that slides, and the joint of two bodies about a common axis."""
 
 from __future__ import annotations
 
@@ -16,17 +16,20 @@ from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 
-class Hinge(NamedTuple):
-    """An inferred joint of two bodies about a common axis."""
+class StoppedJoint(NamedTuple):
+    """An inference that may replace a sliding joint, and what stops the slide."""
 
     inference: Inference
+    """A joint, or that two parts are one body."""
     stop: Stop
-    """What is in doubt: see `Stop`."""
+    replaces_slide: bool
+    """Whether another joint of the two bodies slides, by exact contacts or as inferred: this one takes its place where
+    that slide is of no use. Otherwise this one is all that is inferred of them."""
 
 
-def hinge(
+def joint_about(
     known: Known, line: Line, stop: Stop, free: float | None, room: float | None, touching: bool = False
-) -> Hinge:
+) -> StoppedJoint:
     """Make a revolute joint with a play `free` along the axis, or a cylindrical one without it.
 
     `stop` is what stops the slide, and `room` the play that faces leave, None without faces on both sides.
@@ -48,8 +51,8 @@ def hinge(
     doubt = None if touching else slide_doubt(stop, room, hole.radius)
     evidence = Evidence(kind, tuple(sizes), f"{text}; {_told(stop, free, room)}", doubt)
     # faces that stop a pin with play are no second reading: there is no other joint of the two bodies
-    sure = not exact and stop in (Stop.FACES, Stop.SHORT)
-    return Hinge(Inference.of(joint, evidence), Stop.NONE if sure else stop)
+    replaces = exact or stop not in (Stop.NONE, Stop.FACES, Stop.SHORT)
+    return StoppedJoint(Inference.of(joint, evidence), stop, replaces)
 
 
 def _told(stop: Stop, free: float | None, room: float | None) -> str:
