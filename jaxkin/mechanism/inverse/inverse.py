@@ -14,8 +14,9 @@ from jaxkin._arguments import by_name, check_mechanism, several, whole_number, y
 from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import coordinates
 from jaxkin.mechanism.inverse.aims import aims_of
-from jaxkin.mechanism.inverse.problem import CLOSED, REACHED, Problem, Solution
-from jaxkin.mechanism.inverse.step import Bounds
+from jaxkin.mechanism.inverse.bounded import Bounds
+from jaxkin.mechanism.inverse.problem import Problem
+from jaxkin.mechanism.inverse.solution import CLOSED, REACHED, Solution, from_assembled, from_random, from_unlimited
 from jaxkin.mechanism.joint_limits import with_limited
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mobility.open_loops import opening
@@ -37,9 +38,11 @@ class Inverse:
     """The poses: of each the solution that was found from the assembled pose, unless another one fits better."""
     errors: Float[np.ndarray, " poses"]
     """Root of the sum of squared errors of all targets with their weights: radians, and lengths over `size`."""
+    stationary: Bool[np.ndarray, " poses"]
+    """At which poses no small movement within loops and limits lessens the error."""
     at_limits: Mapping[str, Bool[np.ndarray, " poses"]]
     """At which poses a coordinate is at one of its limits, for those that are at some pose."""
-    solutions: tuple[Float[np.ndarray, "solutions columns"], ...]
+    solutions: tuple[Float[np.ndarray, "_ columns"], ...]
     """Of each pose all solutions that fit as well as the best one, displacements of `columns`; those of the motion
     come first."""
     columns: tuple[str, ...]
@@ -60,6 +63,8 @@ class Inverse:
             lines.append(
                 f"  largest error {self.errors[worst]:.3g} (radians, and lengths over {self.size:.4g}), pose {worst}"
             )
+        if (moving := reached + int(self.stationary[~self.reached].sum())) < poses:
+            lines.append(f"  at {poses - moving} poses the error can still be less: give more iterations")
         lines += [f"  {name} is at a limit at {np.sum(which)} poses" for name, which in self.at_limits.items()]
         if (several := max((len(found) for found in self.solutions), default=0)) > 1:
             lines.append(f"  up to {several} solutions a pose")
@@ -84,8 +89,9 @@ def inverse(
 
     `targets` are those of `sweep`: `jk.pose`, `jk.point`, `jk.orientation` of parts, and joints by name. Where they are
     as many as the freedoms, and can be met, `sweep` finds the same poses, with derivatives. Where they are more, or out
-    of reach, the sum of squared errors is least, lengths over the extent of the joints; where they are fewer, the
-    inputs move as little as they can.
+    of reach, no small movement within loops and limits lessens the sum of squared errors, lengths over the extent of
+    the joints (`stationary` tells where `iterations` were too few for that); where they are fewer, the inputs move as
+    little as they can.
 
     - `weights`: factors of the errors of targets, 1 where none is given; `(place, orientation)` for a pose. A weight of
       zero leaves an error out.
@@ -94,7 +100,8 @@ def inverse(
     - `rest`: displacements of inputs from which their movement is measured, by default those of the assembled pose.
     - `limits`: whether coordinates stay within the limits of their joints.
     - `starts`: how many starts there are: the assembled pose, and others at random (`seed`) from which other branches
-      are found, so other working modes too.
+      are found, so other working modes too, and smaller errors farther away. Where a hinge stops at a limit short of
+      the targets, it is tried the other way round, too.
     - `iterations`: of each start, at most.
 
     Loops are closed at every pose; its status is UNREACHABLE where they are not. Runs on the host; the balls have
@@ -116,20 +123,28 @@ def inverse(
     for name, value in by_name(rest or {}, "places of rest", "{'A': 0.1}").items():
         column = problem.column(name)
         problem.rest[column] = float(value) / problem.units[column]
-    bounds = problem.limits if limits else Bounds(*np.full((2, len(problem.units)), [[-np.inf], [np.inf]]))
-    found = [problem.from_assembled(bounds, iterations), *problem.from_random(bounds, iterations, starts - 1, seed)]
+    bounds = problem.limits if limits else problem.unlimited
+    found = [from_assembled(problem, bounds, iterations)]
+    stopped = _at_limits(found[0].x, bounds) & problem.turns
+    if np.any((found[0].error > REACHED) & stopped.any(axis=1)):
+        found.append(from_unlimited(problem, bounds, iterations))
+    found += from_random(problem, bounds, iterations, starts - 1, seed)
     every = Solution(*(np.stack(each) for each in zip(*found, strict=True)))
     errors = np.where(every.closure <= CLOSED, every.error, np.inf)
     least = errors.min(axis=0)
     best = np.where(errors[0] <= least + REACHED, 0, errors.argmin(axis=0))
     poses = np.arange(problem.poses)
     x = every.x[best, poses]
-    at = (x <= bounds.low + REACHED) | (x >= bounds.high - REACHED)
+    at = _at_limits(x, bounds)
     return Inverse(
         _motion(mechanism, problem, x, every.closure[best, poses], [*chosen]),
         every.error[best, poses],
+        every.stationary[best, poses],
         {name: at[:, column] for column, name in enumerate(problem.names) if at[:, column].any()},
-        tuple(_distinct(every.x[:, pose], errors[:, pose], int(best[pose]), problem) * problem.units for pose in poses),
+        tuple(
+            _distinct(problem, bounds, every.x[:, pose], errors[:, pose], int(best[pose])) * problem.units
+            for pose in poses
+        ),
         problem.names,
         problem.size,
     )
@@ -154,20 +169,21 @@ def _motion(
     return with_limited(Motion(mechanism, inputs_of, rows, jnp.asarray(status), jnp.asarray(closure), SolverOptions()))
 
 
-def _distinct(x: np.ndarray, errors: np.ndarray, first: int, problem: Problem) -> np.ndarray:
-    """Collect the solutions (solutions, columns) that fit as well as the first one; that comes first, turns wrapped."""
+def _at_limits(x: Float[np.ndarray, "poses columns"], bounds: Bounds) -> Bool[np.ndarray, "poses columns"]:
+    """Tell which coordinates are at one of their limits."""
+    return (x <= bounds.low + REACHED) | (x >= bounds.high - REACHED)
+
+
+def _distinct(
+    problem: Problem, bounds: Bounds, x: Float[np.ndarray, "starts columns"], errors: np.ndarray, first: int
+) -> Float[np.ndarray, "solutions columns"]:
+    """Collect the solutions that fit as well as the first one, which comes first; the others turned back near zero."""
     kept: list[np.ndarray] = []
     for number in [first, *np.argsort(errors)]:
         if errors[number] > errors[first] + REACHED or not np.isfinite(errors[number]):
             continue
-        turn = np.where(problem.units == 1.0, np.round(x[number] / (2 * np.pi)) * 2 * np.pi, 0.0)
-        one = x[number] if number == first else x[number] - turn
-        off = [np.where(problem.units == 1.0, _wrapped(one - other), one - other) for other in kept]
+        one = x[number] if number == first else problem.turned_back(x[number], bounds)
+        off = [problem.turned_back(one - other, problem.unlimited) for other in kept]
         if all(np.abs(each).max(initial=0.0) > SAME for each in off):
             kept.append(one)
     return np.stack(kept) if kept else np.zeros((0, x.shape[1]))
-
-
-def _wrapped(angles: np.ndarray) -> np.ndarray:
-    """Wrap angles into -pi to pi."""
-    return (angles + np.pi) % (2 * np.pi) - np.pi

@@ -1,70 +1,34 @@
-"""An inverse problem: its equations at the coordinates of many poses, and their solution from one start or another."""
+"""An inverse problem: the columns of its coordinates, and its equations at those of many poses."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin.geometry.movements import is_length
+from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.joints.coupling import Coupling
 from jaxkin.linkage.closure_equations import closure_residual
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.joint_motion import part_transforms
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.inverse.aims import Aim, JointAim, PartAim
-from jaxkin.mechanism.inverse.step import Bounds, Equations, step
+from jaxkin.mechanism.inverse.bounded import Bounds
+from jaxkin.mechanism.inverse.step import Equations
 from jaxkin.mechanism.targets import extent
-from jaxkin.mobility.infeasible_drive import dead_point
-from jaxkin.mobility.loop_freedoms import loop_freedoms
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
-STAGES = 8
-"""Steps in which targets are moved from the assembled pose to where they are asked for, so that its branch is kept."""
-STAGE_ITERATIONS = 3
-"""Iterations of each stage but the last one: Newton's method follows a target that moves by an eighth of its way."""
-LARGEST = 0.5
-"""Radians, or sizes of the mechanism, that a coordinate moves in one iteration at most."""
 PENALTY = 100.0
 """Weight of squared closure residuals beside squared errors of targets, where steps are judged."""
-REACHED = 1e-9
-"""Weighted error, in radians and sizes of the mechanism, up to which a target counts as reached."""
-CONVERGED = 1e-13
-"""Largest step, in radians and sizes, after which nothing changes any more: rounding."""
-RESTORATIONS = 3
-"""Newton's steps by which the loops are closed after each step at most."""
-CLOSED = 1e-12
-"""Closure residual up to which a pose is closed: the default tolerance of `sweep`."""
-ROUNDED = 1e-14
-"""Error, in radians and sizes, that is rounding: a step that leaves no more is right, whatever it was before. Rounding
-would refuse the last steps of inputs to where they rest, which change errors by less."""
-BESIDE = 1e-2
-"""Step off a dead point of a target, radians and sizes: Newton's method has slopes of a hundred there."""
-DAMPING = 1e-3
-"""Damping after the first step that is refused."""
-GOOD = 0.5
-"""Share of the foreseen decrease of squared errors below which a step is damped more the next time."""
-FURTHER = 10.0
-"""How much the squared errors may rise, over the fourth power of a step: along targets that are met the inputs move to
-where they rest, and errors of the second order in that step are for the next one to mend."""
-
-
-class Solution(NamedTuple):
-    """Poses as they were found from one start."""
-
-    x: Float[np.ndarray, "poses columns"]
-    """Coordinates in radians and sizes."""
-    error: Float[np.ndarray, " poses"]
-    """Weighted error of the targets."""
-    closure: Float[np.ndarray, " poses"]
-    """Closure residual of all loops."""
+TURN = 2 * np.pi
+"""A whole turn."""
 
 
 class Problem:
@@ -75,9 +39,13 @@ class Problem:
         self.linkage, self.aims, self.size = linkage, aims, extent(mechanism)
         self.places = [(k, c) for k, joint in enumerate(linkage.joints) for c in range(joint.freedoms)]
         self.names = tuple(f"{linkage.joints[k].name}.{linkage.joints[k].coordinates[c]}" for k, c in self.places)
-        self.units = np.array([self.size if is_length(name.rpartition(".")[2]) else 1.0 for name in self.names])
+        self.lengths = np.array([is_length(name.rpartition(".")[2]) for name in self.names], bool)
+        self.units = np.where(self.lengths, self.size, 1.0)
+        self.turns = np.array(_turns(linkage, aims), bool)
+        """Which columns repeat after a whole turn: those of hinges and balls that no coupling and no target names."""
         ends = [linkage.joints[k].limits[c] if linkage.joints[k].limits else (-np.inf, np.inf) for k, c in self.places]
         self.limits = Bounds(*(np.array(ends, float).reshape(-1, 2) / self.units[:, None]).T)
+        self.unlimited = Bounds(*np.full((2, len(self.places)), [[-np.inf], [np.inf]]))
         self.inputs = np.zeros(len(self.places), bool)
         self.rest = np.zeros(len(self.places))
         self.parts = tuple(dict.fromkeys(aim.part for aim in aims if isinstance(aim, PartAim)))
@@ -89,67 +57,18 @@ class Problem:
         """The column of a coordinate by name; ValueError where there is none."""
         return self.places.index(coordinate(self.linkage, name))
 
-    def from_assembled(self, bounds: Bounds, iterations: int) -> Solution:
-        """Solve from the assembled pose, along targets that move from there to where they are asked for."""
-        x = np.clip(np.zeros((self.poses, len(self.units))) + self._beside(), bounds.low, bounds.high)
-        for stage in range(1, STAGES):
-            x = self._iterated(x, bounds, stage / STAGES, STAGE_ITERATIONS)
-        return self._solution(self._iterated(x, bounds, 1.0, iterations))
+    def turned_back(
+        self, x: Float[np.ndarray, "*poses columns"], bounds: Bounds
+    ) -> Float[np.ndarray, "*poses columns"]:
+        """Turn hinges by whole turns to where they are nearest to zero, within their limits if a whole turn is."""
+        least, most = np.ceil((bounds.low - x) / TURN), np.floor((bounds.high - x) / TURN)
+        there = self.turns & (least <= most)
+        return x + TURN * np.clip(-np.round(x / TURN), np.where(there, least, 0.0), np.where(there, most, 0.0))
 
-    def _beside(self) -> Float[np.ndarray, " columns"]:
-        """A step off the dead point, if the assembled pose is that of a target: there no step would lead to it."""
-        found = np.zeros(len(self.units))
-        if dead_point(self.linkage, [aim.place for aim in self.aims if isinstance(aim, JointAim)]):
-            for group in loop_freedoms(self.linkage):
-                for rates in group.at_rest[:1]:
-                    found[[self.places.index(place) for place in group.columns]] = BESIDE * rates
-        return found
-
-    def from_random(self, bounds: Bounds, iterations: int, count: int, seed: int) -> Iterator[Solution]:
-        """Solve from starts at random within the limits; half a turn, or a size, to each side where there are none."""
-        rng = np.random.default_rng(seed)
-        reach = np.where(self.units == 1.0, np.pi, 1.0)
-        low, high = np.maximum(bounds.low, -reach), np.minimum(bounds.high, reach)
-        for _ in range(count):
-            x = rng.uniform(np.minimum(low, high), np.maximum(low, high), (self.poses, len(self.units)))
-            yield self._solution(self._iterated(x, bounds, 1.0, iterations))
-
-    def _iterated(self, x: np.ndarray, bounds: Bounds, share: float, iterations: int) -> np.ndarray:
-        damping = np.zeros(len(x))
-        now, merit = self._equations(x, share)
-        for number in range(iterations):
-            # errors that cannot vanish settle slowly, and only where nothing else moves on
-            settled = np.sum(now.targets**2, axis=1) <= REACHED**2
-            found = step(now, x, bounds, damping, self.inputs & (settled | (2 * number < iterations))[:, None])
-            largest = np.abs(found.move).max(axis=1, initial=0.0)
-            if largest.max(initial=0.0) <= CONVERGED:
-                break
-            tried = x + found.move * np.minimum(1.0, LARGEST / np.maximum(largest, CONVERGED))[:, None]
-            tried, there, reached = self._restored(tried, bounds, share)
-            met = reached <= ROUNDED**2
-            taken = met | (reached <= merit + FURTHER * found.to_rest**4)
-            errors = [np.sum(each.targets**2, axis=1) for each in (now, there)]
-            as_foreseen = met | (errors[0] - errors[1] >= GOOD * (errors[0] - found.foreseen))
-            x = np.where(taken[:, None], tried, x)
-            now = Equations(*(_where(taken, new, old) for new, old in zip(there, now, strict=True)))
-            merit = np.where(taken, reached, merit)
-            damping = np.where(taken & as_foreseen, 0.3 * damping, np.maximum(4.0 * damping, DAMPING))
-            damping = np.where(damping < DAMPING / 10, 0.0, damping)
-        return x
-
-    def _restored(self, x: np.ndarray, bounds: Bounds, share: float) -> tuple[np.ndarray, Equations, np.ndarray]:
-        """Close the loops again after a step along their tangent; also returns equations and merit there."""
-        now, merit = self._equations(x, share)
-        for _ in range(RESTORATIONS):
-            if np.linalg.norm(now.closure, axis=1).max(initial=0.0) <= CLOSED:
-                break
-            alone = now._replace(targets=now.targets[:, :0], targets_jacobian=now.targets_jacobian[:, :0])
-            x = x + step(alone, x, bounds, np.zeros(len(x)), np.zeros((1, len(self.units)), bool)).move
-            now, merit = self._equations(x, share)
-        return x, now, merit
-
-    def _equations(self, x: np.ndarray, share: float) -> tuple[Equations, np.ndarray]:
-        """The equations at coordinates (poses, columns), and the merit that a step is to lessen.
+    def equations(
+        self, x: Float[np.ndarray, "poses columns"], share: float
+    ) -> tuple[Equations, Float[np.ndarray, " poses"]]:
+        """Evaluate the equations at coordinates (poses, columns), and the merit that a step is to lessen.
 
         Targets are `share` of the way from the assembled pose to where they are asked for.
         """
@@ -185,13 +104,23 @@ class Problem:
         merit = np.sum(targets**2, axis=1) + PENALTY * np.sum(closure**2, axis=1)
         return Equations(closure, jacobian, targets, aimed, x - self.rest), merit
 
-    def _solution(self, x: np.ndarray) -> Solution:
-        now, _ = self._equations(x, 1.0)
-        return Solution(x, np.linalg.norm(now.targets, axis=1), np.linalg.norm(now.closure, axis=1))
 
-
-def _where(taken: np.ndarray, new: np.ndarray, old: np.ndarray) -> np.ndarray:
-    return np.where(taken.reshape(-1, *[1] * (new.ndim - 1)), new, old)
+def _turns(linkage: Linkage, aims: Sequence[Aim]) -> list[bool]:
+    """Tell of each column whether it is the same pose a whole turn farther, and meets the targets as well there."""
+    tied = {coordinate(linkage, name) for coupling in linkage.couplings for name in coupling.coordinates}
+    tied |= {aim.place for aim in aims if isinstance(aim, JointAim)}
+    found: list[bool] = []
+    for number, joint in enumerate(linkage.joints):
+        movements = [MOVEMENTS[name] for name in joint.movements]
+        other = [
+            [element.coordinate for element in movement.elements if element.kind != "rotate" or element.law]
+            for movement in movements
+        ]
+        rotates = [
+            k not in slides for m, slides in zip(movements, other, strict=True) for k in range(len(m.coordinates))
+        ]
+        found += [turns and (number, place) not in tied for place, turns in enumerate(rotates)]
+    return found
 
 
 @partial(jax.jit, static_argnums=(1, 2))

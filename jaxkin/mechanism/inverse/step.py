@@ -1,12 +1,12 @@
-"""One step of Gauss and Newton's method for targets under constraints, for many poses at once.
+"""One step of Gauss and Newton's method for targets under constraints and limits, for many poses at once.
 
 With coordinates x (radians, and lengths over the size), the step solves, in this order of precedence,
 
-    A x = -c             the closure equations, and coordinates that stop at their limits,
+    min |A x + c|        the closure equations,
     min |B x - r|        the targets, weighted,
     min |D x - d|        the movement of the inputs from where they rest,
 
-each by the singular value decomposition, within the null space of those above it.
+each within the limits, and among all that solves those above it.
 """
 
 from __future__ import annotations
@@ -16,12 +16,11 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Bool, Float
 
-RANK = 1e-7
-"""Singular values below it, for equations of order one, are zero: the tolerance that decides the rank of mobility."""
-ROUNDING = 1e-14
-"""How far a coordinate may be beyond a limit, radians or sizes."""
-ROUNDS = 6
-"""How often coordinates that a step takes beyond their limits are stopped, and the step computed anew."""
+from jaxkin.mechanism.inverse.bounded import Bounds, downhill, fit, least
+
+STATIONARY = 1e-4
+"""Cosine between the errors and what a movement changes of them, up to which no movement lessens the errors: they are
+within about its square of the least ones."""
 
 
 class Equations(NamedTuple):
@@ -36,6 +35,10 @@ class Equations(NamedTuple):
     rest: Float[np.ndarray, "poses columns"]
     """How far each column is from where it rests."""
 
+    def at(self, poses: np.ndarray) -> Equations:
+        """Select the equations of some poses, by their numbers."""
+        return Equations(*(each[poses] for each in self))
+
 
 class Step(NamedTuple):
     """A step, and what becomes of the squared errors of the targets if they are linear."""
@@ -47,13 +50,6 @@ class Step(NamedTuple):
     """Squared errors after it."""
 
 
-class Bounds(NamedTuple):
-    """Limits of the columns, infinite where there are none."""
-
-    low: Float[np.ndarray, " columns"]
-    high: Float[np.ndarray, " columns"]
-
-
 def step(
     equations: Equations,
     x: Float[np.ndarray, "poses columns"],
@@ -62,54 +58,41 @@ def step(
     inputs: Bool[np.ndarray, "#poses columns"],
 ) -> Step:
     """Compute the step of each pose, which keeps limits; `damping` is that of Levenberg and Marquardt."""
-    limited = np.flatnonzero(np.isfinite(bounds.low) | np.isfinite(bounds.high))
-    stopped = np.zeros((len(x), len(limited)), bool)
-    move, to_rest = np.zeros_like(x), np.zeros(len(x))
-    for _ in range(ROUNDS):
-        rows = np.zeros((len(x), len(limited), x.shape[1]))
-        rows[:, np.arange(len(limited)), limited] = stopped
-        nearest = np.clip(x[:, limited] + move[:, limited], bounds.low[limited], bounds.high[limited])
-        values = np.where(stopped, x[:, limited] - nearest, 0.0)
-        jacobian = np.concatenate([equations.closure_jacobian, rows], axis=1)
-        values = np.concatenate([equations.closure, values], axis=1)
-        move, to_rest = _solved(equations, jacobian, values, damping, inputs)
-        there = x[:, limited] + move[:, limited]
-        beyond = (there < bounds.low[limited] - ROUNDING) | (there > bounds.high[limited] + ROUNDING)
-        if not (beyond & ~stopped).any():
-            break
-        stopped |= beyond
+    room = Bounds(bounds.low - x, bounds.high - x)
+    free = np.broadcast_to(np.eye(x.shape[1]), (*x.shape, x.shape[1]))
+    move, free = fit(equations.closure_jacobian, -equations.closure, 0 * damping, free, np.zeros_like(x), room)
+    move, free = fit(equations.targets_jacobian, equations.targets, damping, free, move, room)
     left = equations.targets - np.einsum("pij,pj->pi", equations.targets_jacobian, move)
-    return Step(move, to_rest, np.sum(left**2, axis=1))
+    chosen = np.eye(x.shape[1]) * np.broadcast_to(inputs, x.shape)[:, None, :]
+    rested, _ = fit(chosen, -equations.rest * inputs, damping, free, move, room)
+    return Step(rested, np.linalg.norm(rested - move, axis=1), np.sum(left**2, axis=1))
 
 
-def _solved(
-    equations: Equations,
-    jacobian: Float[np.ndarray, "poses _ columns"],
-    values: Float[np.ndarray, "poses _"],
-    damping: Float[np.ndarray, " poses"],
-    inputs: Bool[np.ndarray, "#poses columns"],
-) -> tuple[Float[np.ndarray, "poses columns"], Float[np.ndarray, " poses"]]:
-    """The step for closure and stopped coordinates together, and the norm of its part to where the inputs rest."""
-    columns = jacobian.shape[2]
-    move, range_of = _least(jacobian, -values, np.zeros(len(jacobian)))
-    free = np.eye(columns) - range_of
-    aims = equations.targets_jacobian
-    more, range_of = _least(aims @ free, equations.targets - np.einsum("pij,pj->pi", aims, move), damping)
-    move = move + more
-    free = free - range_of
-    back = -(equations.rest + move) * inputs
-    less, _ = _least(free * inputs[:, :, None], back, damping)
-    return move + less, np.linalg.norm(less, axis=1)
+def slope(
+    equations: Equations, x: Float[np.ndarray, "poses columns"], bounds: Bounds
+) -> tuple[Float[np.ndarray, "poses columns"], Float[np.ndarray, "poses columns"]]:
+    """Find the movement of steepest descent of half the squared errors that keeps loops and limits, and multipliers.
+
+    The movement is zero where the condition of Karush, Kuhn and Tucker holds; the multipliers are those of the limits.
+    """
+    falls = np.einsum("pij,pi->pj", equations.targets_jacobian, equations.targets)
+    return downhill(tangent(equations), falls, x, bounds)
 
 
-def _least(
-    matrix: Float[np.ndarray, "poses rows columns"],
-    values: Float[np.ndarray, "poses rows"],
-    damping: Float[np.ndarray, " poses"],
-) -> tuple[Float[np.ndarray, "poses columns"], Float[np.ndarray, "poses columns columns"]]:
-    """Solve `matrix x = values` by the least x that fits best; also the projector on the range of x."""
-    u, sigma, vt = np.linalg.svd(matrix, full_matrices=False)
-    kept = sigma > RANK
-    inverse = np.where(kept, sigma / np.where(kept, sigma**2 + damping[:, None] ** 2, 1.0), 0.0)
-    x = np.einsum("pkj,pk,pik,pi->pj", vt, inverse, u, values, optimize=True)
-    return x, np.einsum("pki,pk,pkj->pij", vt, kept.astype(float), vt, optimize=True)
+def tangent(equations: Equations) -> Float[np.ndarray, "poses columns columns"]:
+    """Project on the movements that keep the loops closed, to first order."""
+    columns = equations.closure_jacobian.shape[2]
+    return np.eye(columns) - least(equations.closure_jacobian, equations.closure)[1]
+
+
+def scale(equations: Equations) -> Float[np.ndarray, " poses"]:
+    """Multiply the norm of the errors by that of their derivatives: the measure of slopes and curvatures."""
+    return np.linalg.norm(equations.targets, axis=1) * np.linalg.norm(equations.targets_jacobian, axis=(1, 2))
+
+
+def is_stationary(
+    equations: Equations, x: Float[np.ndarray, "poses columns"], bounds: Bounds, cosine: float = STATIONARY
+) -> Bool[np.ndarray, " poses"]:
+    """Tell at which poses no movement within loops and limits lessens the errors, to first order."""
+    down, _ = slope(equations, x, bounds)
+    return np.linalg.norm(down, axis=1) <= cosine * scale(equations)
