@@ -30,4 +30,4 @@ def __getattr__(name: str) -> typing.Any:
 def __dir__() -> list[str]:
     from jaxkin import _api
 
-    return sorted(name for name in {*vars(_api), *globals()} if not name.startswith("_")) + ["__version__"]
+    return sorted(name for name in vars(_api) if not name.startswith("_")) + ["__version__"]

@@ -6,6 +6,7 @@ import re
 import pytest
 
 import jaxkin as jk
+from jaxkin import _api
 
 PUBLIC = {name: getattr(jk, name) for name in dir(jk) if not name.startswith("_")}
 CLASSES = {name: found for name, found in PUBLIC.items() if inspect.isclass(found)}
@@ -35,3 +36,8 @@ def functions():
 def test_what_a_public_call_returns_is_public(name, function):
     known = {*PUBLIC, "Mapping", "Sequence", "Iterator", "Array", "Path", "Any", "Figure", "Callable", "None", "Self"}
     assert returned(function) <= known
+
+
+def test_what_dir_lists_can_be_asked_for_first():
+    """Modules are names of the package only once something in them was imported."""
+    assert set(dir(jk)) == {*(name for name in vars(_api) if not name.startswith("_")), "__version__"}

@@ -33,8 +33,8 @@ _TAKE_GEARS = "take them by mechanism.with_couplings([each.coupling for each in 
 """How gears are coupled: from Python, or by [couplings] of a study, which are the equations printed."""
 
 _GIVE_TOLERANCES = (
-    "such tolerances are given in a study, as in tolerance = { length = 0.001 }, or in Python, as in "
-    "assembly.contacts(length=0.001); they hold for all faces"
+    "such tolerances are given in a study without contacts = false, as in tolerance = { length = 0.001 }, or in "
+    "Python, as in assembly.contacts(length=0.001); they hold for all faces"
 )
 """How to follow the advice of near misses."""
 

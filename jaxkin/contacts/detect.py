@@ -86,7 +86,7 @@ def _rounded(parts: tuple[Part, ...], length: float) -> str:
     worst = max(parts, key=lambda part: part.resolution)
     return (
         f"gaps of up to {length:.2g} count as none: the place of {worst.name!r} is rounded by {worst.resolution:.2g}, "
-        "so far from the origin: export nearer to it, or give length= a smaller value"
+        "so far from the origin: export nearer to it, or ask for a smaller length"
     )
 
 

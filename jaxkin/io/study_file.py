@@ -204,6 +204,13 @@ class StudyFile(BaseModel):
             for key in ("loops", "rename", "rigid", "ignore", "exclude", "clearance", "tolerance"):
                 if key in self.model_fields_set:
                     raise ValueError(f"{key} is about parts from files, but no geometry is given; leave it out")
+        if not self.contacts:
+            for key in ("tolerance", "clearance", "ignore", "combine"):
+                if key in self.model_fields_set:
+                    raise ValueError(
+                        f"{key} is about contacts, which contacts = false does not look for; leave {key} out, or "
+                        "delete contacts = false, and [joints] and rigid where these are to be found anew"
+                    )
         return self
 
     def made_joints(self, file: str) -> tuple[Joint, ...]:

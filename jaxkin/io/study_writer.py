@@ -14,6 +14,7 @@ from jaxkin._grouped import grouped, kind_of
 from jaxkin.assembly.inference.inference import INFERRED
 from jaxkin.assembly.inferred import TOLD
 from jaxkin.assembly.wheels import wheels_last
+from jaxkin.contacts.reason import advises_tolerance
 from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.geometry.pose import Pose, frame
 from jaxkin.io.study_bodies import Bodies
@@ -34,6 +35,11 @@ if TYPE_CHECKING:
 
 _BESIDE = (INFERRED, TOLD)
 """Prefixes of notes that are written beside their joint or body, and not at the top."""
+_GIVE_TOLERANCES = (
+    "such tolerances find contacts anew: delete contacts = false, rigid and [joints], and write, as an example, "
+    "tolerance = { length = 0.001 } in their place"
+)
+"""How to follow the advice of near misses in a study that holds the joints that were found."""
 _SAME = 1e-12
 """Largest difference of the entries of two poses that count as equal: rounding of a frame made anew from its axis."""
 _AS_CONTACT = {JointKind.PLANAR: "a", JointKind.SPHERICAL: "o"}
@@ -94,6 +100,8 @@ def _head(
     notes = [note for note in mechanism.notes if note not in of_faces and not note.startswith(_BESIDE)]
     for note in grouped((kind_of(note.rpartition(": ")[2]), note) for note in (*assumptions, *notes)):
         lines += comment(note)
+    if mechanism.solids and any(advises_tolerance(note) for note in notes):
+        lines += comment(_GIVE_TOLERANCES)
     lines += ["", f"geometry = {toml(geometry)}"] if mechanism.solids else []
     lines += [f"loops = {toml(loops)}"] if loops and mechanism.solids else []
     lines += ["contacts = false  # the joints below are all there are"] if mechanism.solids else []

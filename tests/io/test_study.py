@@ -169,6 +169,10 @@ HINGE = '[joints.A]\nkind = "revolute"\nparts = ["ground", "crank"]\n'
             'fixed = ["ground"]\nrename = {}\n' + HINGE + "axis = [0, 0, 1]\npoint = [0, 0, 0]",
             "rename is about parts from",
         ),
+        (
+            HEAD + "contacts = false\ntolerance = { length = 0.1 }",
+            "tolerance is about contacts, which contacts = false does not look for",
+        ),
         ('geometry = "missing.step"\nfixed = ["a"]', "missing.step does not exist"),
     ],
 )

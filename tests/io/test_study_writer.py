@@ -9,6 +9,7 @@ import pytest
 import jaxkin as jk
 from jaxkin.examples import EXAMPLES, path
 from reference import catalogue, mechanisms
+from reference.round_parts import assembly, block, part, pin, ring
 
 BY_HAND = {
     "four-bar": mechanisms.planar_fourbar,
@@ -95,3 +96,14 @@ def test_what_cannot_be_written_is_said_and_leaves_no_file(tmp_path):
     assert not list(tmp_path.iterdir())
     jk.write_study(changed.close().mechanism, target)
     assert_same(jk.load_study(target).mechanism, changed.close().mechanism)
+
+
+def test_a_study_says_how_the_tolerances_that_it_advises_are_taken(tmp_path):
+    """A lever with play on its pin, exact contacts only: the study that holds what was found has no use for them."""
+    base = part("base", block((-40, -40, -10), (40, 40, 0)), pin(4.0, 0, 20))
+    lever = part("lever", ring(4.2, 9.0, 0, 19.5), block((8, -4, 0), (40, 4, 6)))
+    given = assembly(base, lever).mechanism(fixed=["base"], infer=False)
+    jk.write_study(given, tmp_path / "study.toml", geometry="drawn.step")
+    said = (tmp_path / "study.toml").read_text()
+    assert "give fit=0.05" in said
+    assert said.count("delete contacts = false, rigid and [joints]") == 1

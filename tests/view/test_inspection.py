@@ -8,14 +8,15 @@ from PIL import Image
 
 import jaxkin as jk
 from jaxkin.assembly.assembly import Assembly
-from jaxkin.contacts.tolerance import default_length
+from jaxkin.contacts.tolerance import outline_length
 from jaxkin.examples import EXAMPLES, path
 from jaxkin.io.step import read_step
 from jaxkin.view.callouts import COLORS
 from jaxkin.view.gallery import PANEL, draw_gallery
 from jaxkin.view.inspection import draw_inspection
 from jaxkin.view.regions import region_of
-from jaxkin.view.sheet import FOOT, GAP, HEAD, MARGIN
+from jaxkin.view.sheet import FOOT, GAP, HEAD, MARGIN, Sheet
+from reference.round_parts import assembly, block, part, pin, ring
 
 DATA = Path(__file__).parents[1]
 
@@ -30,7 +31,7 @@ def states():
 def test_regions_lie_on_both_surfaces(states):
     """Areas by the corners of their triangles: between these lie chords."""
     faces = {(part.name, face.name): face for part in states.parts for face in part.faces}
-    tolerance = default_length(states.parts)
+    tolerance = outline_length(states.parts)
     for contact in states.contacts():
         face1, face2 = (faces[side] for side in zip(contact.parts, contact.faces, strict=True))
         region = region_of(contact, face1, face2, tolerance)
@@ -53,17 +54,17 @@ def test_areas_are_those_of_the_drawing():
     size = EXAMPLES["fourbar"].dimensions
     contact = next(c for c in assembly.contacts() if set(c.parts) == {"crank", "coupler"} and c.state == "e")
     face1, face2 = (faces[side] for side in zip(contact.parts, contact.faces, strict=True))
-    found = area(region_of(contact, face1, face2, default_length(assembly.parts)).triangles)
+    found = area(region_of(contact, face1, face2, outline_length(assembly.parts)).triangles)
     assert found == pytest.approx(2 * np.pi * size["pin radius"] * size["thickness"], rel=0.01)
 
 
 @pytest.mark.long
 def test_the_picture_shows_contacts_in_their_colour(tmp_path):
-    assembly = jk.load(path("cam"))
+    found = jk.load(path("cam"))
     red = []
     for contacts in (None, ()):
-        mechanism = assembly.mechanism(fixed=["frame"])
-        draw_inspection(assembly, tmp_path / "found.png", contacts=contacts, mechanism=mechanism, width=500)
+        mechanism = found.mechanism(fixed=["frame"])
+        draw_inspection(found, tmp_path / "found.png", contacts=contacts, mechanism=mechanism, width=500)
         image = np.asarray(Image.open(tmp_path / "found.png").convert("RGB"), int)[:-150]  # without the legend
         red.append(int(((image[..., 0] - image[..., 1:].max(axis=-1)) > 90).sum()))
     assert red[0] > 5 * red[1] + 150
@@ -89,3 +90,12 @@ def test_nothing_is_left_where_it_cannot_be_written(tmp_path):
     with pytest.raises(FileNotFoundError):
         draw_inspection(jk.load(path("cam")), tmp_path / "none" / "found.png", width=200)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_one_joint_is_called_so(tmp_path, monkeypatch):
+    said = []
+    monkeypatch.setattr(Sheet, "write", lambda sheet, at, text, *style, **more: said.append(text))
+    base = part("base", block((-40, -40, -10), (40, 40, 0)), pin(4.0, 0, 20))
+    drawn = assembly(base, part("lever", ring(4.2, 9.0, 0.5, 19.5), block((8, -4, 0.5), (40, 4, 6))))
+    draw_inspection(drawn, tmp_path / "found.png", mechanism=drawn.mechanism(fixed=["base"]), width=300)
+    assert any(text.startswith("2 parts  ·  no contacts  ·  1 joint  ·  ") for text in said)
