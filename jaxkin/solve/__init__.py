@@ -9,7 +9,7 @@ function is called by the nearest one above it that is indented less. What happe
             if all loops have formulas, `jaxkin.mechanism.formula_sweep` calls it, in one program for all of them
  2.   `execution/known_numbers.py` `solve_numbers`          run the program that stops at limits (`follow_limits`)
           first; where it leaves poses open, the one that goes on beyond them
-        `execution/cores.py` `run_on_cores`                 cut a long range into shards, one for each core
+        `execution/cores.py` `run_on_cores`                 cut a range into shards, one for each core
           `_solve` of `execution/known_numbers.py` solves a shard: steps 3 and 18
  3.     `range/solve_range.py` `find_poses`                 find all poses of a shard
  4.       `closure/closure.py` `scaled_geometry`            scale lengths, compute constants of the loops from frames

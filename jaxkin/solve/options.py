@@ -29,7 +29,7 @@ class SolverOptions:
     """How poses are found: accuracy, method, limits on the work, cores. Immutable and hashable.
 
     A sweep is compiled anew for other values of all fields but `tolerance`, `formulas`, `cores` and `min_shard_poses`;
-    the latter two only decide into how many shards a long range is cut, for each number of which a program is compiled.
+    the latter two only decide into how many shards a range is cut, for each number of which a program is compiled.
     Raises ValueError for a value that a field cannot have.
     """
 
@@ -65,7 +65,7 @@ class SolverOptions:
     interpolate_from: int = 8192
     """Ranges of at least this number of poses are interpolated between a few that were solved, and checked."""
     cores: int | None = None
-    """Processor cores that share a long range, at most. None: all that this process may use."""
+    """Processor cores that share a range, at most. None: all that this process may use."""
     min_shard_poses: int | None = None
     """Poses that one core is given, at least: for fewer, tracing the branch to them takes longer than finding them.
     None: 16384, and 128 for loops of twenty joints and more."""

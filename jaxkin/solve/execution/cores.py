@@ -1,4 +1,4 @@
-"""Cut a long range into shards, and solve each on a processor core of its own.
+"""Cut a range into shards, and solve each on a processor core of its own.
 
 A compiled program of the solver runs on one thread, since its operations take microseconds. Each shard runs its program
 in a thread of its own. For a single input, each shard traces the branch from the assembled pose to the shard; for
