@@ -53,7 +53,10 @@ def infeasible_drive(linkage: Linkage, driven: Sequence[Coordinate]) -> Infeasib
         nearly = (
             f"; jk.inverse meets the target {' and '.join(targets)} as nearly as the loops let it" if targets else ""
         )
-        if stuck := names(linkage, found, [column for column in columns if column not in movable]):
+        whose = {column: name for name, group in targets.items() for column in group}
+        stuck = [column for column in columns if column not in movable]
+        said = [f"a direction of {whose[c]}" if c in whose else names(linkage, found, [c])[0] for c in stuck]
+        if stuck := list(dict.fromkeys(said)):
             what = "has no freedom left to it" if len(stuck) == 1 else "have no freedom left to them"
             others = _or(linkage, found, _surest(found, choices))
             instead = f"; what can be driven is {others}" if others else ""

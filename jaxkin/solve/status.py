@@ -4,14 +4,17 @@
 |---|---|---|
 | 1 | NONFINITE | the residual is NaN or infinite |
 | 2 | CLOSED | the residual is at most the tolerance, on the branch of the assembled pose |
-| 2 | JUMPED | the residual is at most the tolerance, on another branch |
+| 2 | JUMPED | the residual is at most the tolerance, and no way that was tried leads there: see below |
 | 3 | UNREACHABLE | the residual is above the tolerance and stationary: no small displacement lessens it |
 | 4 | STALLED | none of these: the solver stopped on its way |
+
+A pose of one input that is JUMPED is on another branch: what lies between cannot be passed. Several inputs can go to
+their values in any number of ways, of which a sweep tries four at most, so that such a pose may still be on the branch.
 
 `classify` gives a pose the status of the first row that holds. The status is then changed in these cases, in turn:
 
 - STALLED, whatever the residual: the trace of the branch ran out of steps before it got to the input of the pose
-  (`range.polish`). Of several inputs, such a pose is then tried in a straight line (`range.straight_lines`).
+  (`range.polish`). Of several inputs, such a pose is then tried by other ways (`range.other_ways`).
 - STALLED in place of CLOSED or JUMPED: correctors improve no pose below the rounding that is left of its residual, and
   that is above the tolerance (`range.solve_range.find_poses`).
 - STALLED in place of CLOSED or JUMPED: the pose is that of a formula, and whether the motion leads to it is in doubt
@@ -68,7 +71,8 @@ class Status(IntEnum):
 _MESSAGES = {
     Status.CLOSED: "all loops closed, on the branch of the assembled pose",
     Status.UNREACHABLE: "the loops cannot close for this input: leave it out of the range, or change the lengths",
-    Status.JUMPED: "closed, but on another branch than the assembled pose: the range between them cannot be passed",
+    Status.JUMPED: "closed, but no way that was tried leads there from the assembled pose: on another branch, unless "
+    "several inputs get there by another way",
     Status.STALLED: "not converged: give more poses in between, start from a pose that is less singular, or ask "
     "for a tolerance that rounding can reach",
     Status.MISFIT: "closed as nearly as the joints agree, on the branch of the assembled pose: the notes of the "

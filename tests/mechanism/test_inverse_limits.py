@@ -172,3 +172,9 @@ def test_an_arm_near_the_end_of_its_reach_keeps_the_target_that_it_met():
     mechanism, tip = arm(3)
     goals = np.array([[1.37101363, -2.66281182, 0], [-2.93883976, 0.40018973, 0]])
     assert jk.inverse(mechanism, {tip: goals}).reached.all()
+
+
+def test_a_sweep_of_a_straight_arm_names_the_target_and_not_a_coordinate_behind_it():
+    mechanism, tip = arm(2)
+    with pytest.raises(ValueError, match=r"^a direction of 2 \(2, 0, 0\) has no freedom left to it by the loops"):
+        mechanism.sweep({tip: [[1.5, 0.0, 0.0]]})

@@ -1,9 +1,12 @@
-"""Try poses of several inputs that a curve through all poses did not reach in straight lines from the assembled pose.
+"""Try poses of several inputs that a curve through all poses did not reach by other ways from the assembled pose.
 
-A straight line is followed by a continuation of its own. One that meets a limit takes a hundred steps, and so do all
-lines that are followed beside it: lines are followed in small groups, and as few as tell what the other poses are.
-Where no line leads to two poses that are no farther apart than `CELL`, and all states between them are close to each
-other and of one status, none is tried to the poses between.
+The first way is a straight line. Poses that close behind an unreachable interval are then tried along two parabolas, on
+which one half of the inputs goes ahead of the other: a pose that none of them reaches may still be on the branch.
+
+A way is followed by a continuation of its own. One that meets a limit takes a hundred steps, and so do all that are
+followed beside it: ways are followed in small groups, and as few as tell what the other poses are. Where none leads to
+two poses that are no farther apart than `CELL`, and all states between them are close to each other and of one status,
+none is tried to the poses between.
 """
 
 from __future__ import annotations
@@ -15,7 +18,9 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from jaxkin.solve.continuation.step import BEYOND_LIMIT_STEP, reach
+from jaxkin.solve.closure.closure import closure
+from jaxkin.solve.continuation.fronts import ContinuationProblem, Fronts, arrived, assembled_fronts
+from jaxkin.solve.continuation.step import BEYOND_LIMIT_STEP, substep
 from jaxkin.solve.correctors.levenberg_marquardt import select_poses
 from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.device import group_for_device
@@ -28,6 +33,9 @@ LINES = 16
 """Number of lines that are followed together on CPUs: beside one that meets a limit, more would wait for it."""
 CELL = BEYOND_LIMIT_STEP
 """Largest distance along the curve, radians or characteristic lengths, between two poses that are tried."""
+STAYS = 4 * BEYOND_LIMIT_STEP
+"""Distance, at the end of a way, over which inputs stay where they are while a pose is STALLED: four times the steps of
+the damped corrector, which has few for each step of the continuation."""
 
 
 class _Tried(NamedTuple):
@@ -44,11 +52,30 @@ def try_straight_lines(
     inputs: Float[Array, "driven poses"],
     found: Poses,
 ) -> Poses:
-    """Replace poses that are not CLOSED by those to which straight lines lead from the assembled pose.
+    """Replace poses that are not CLOSED by those to which other ways lead from the assembled pose.
 
     `at` are the distances of the poses along the curve, which grow; `inputs` are in radians and characteristic lengths.
     """
-    failed = found.status != Status.CLOSED.value
+    leads = (jnp.arange(inputs.shape[0]) < inputs.shape[0] // 2)[:, None]
+
+    def followed(way: Int[Array, ""], found: Poses) -> Poses:
+        failed = found.status != Status.CLOSED.value
+        failed &= (way == 0) | (found.status == Status.JUMPED.value)
+        ahead = jnp.where(way == 0, 0.5, jnp.where(leads, way == 1, way == 2))
+        return _follow(problem, at, inputs, ahead * inputs, found, failed)
+
+    return lax.fori_loop(0, 3, followed, found)
+
+
+def _follow(
+    problem: ClosureProblem,
+    at: Float[Array, " poses"],
+    inputs: Float[Array, "driven poses"],
+    bends: Float[Array, "driven poses"],
+    found: Poses,
+    failed: Bool[Array, " poses"],
+) -> Poses:
+    """Replace `failed` poses by those to which the parabolas with control points `bends` lead."""
     poses = failed.shape[0]
     lines = group_for_device(LINES)
     number, run, cell = jnp.arange(poses), _runs(found), jnp.floor(at / (0.5 * CELL))
@@ -69,8 +96,7 @@ def try_straight_lines(
         chosen = jnp.where(jnp.any(open_poses & first), open_poses & first, open_poses)
         which = jnp.argsort(~chosen)[:lines]
         chosen, begun = chosen[which], jax.tree.map(lambda array: array[..., which], now.poses)
-        targets = jnp.where(chosen, inputs[:, which], 0.0)
-        other = Poses(*reach(problem.system, problem.geometry, targets, problem.options))
+        other = _reach(problem, *(jnp.where(chosen, given[:, which], 0.0) for given in (inputs, bends)))
         reached = chosen & (other.status == Status.CLOSED.value)
         better = reached | chosen & (begun.status == Status.STALLED.value)
         poses = select_poses(better, other, begun)
@@ -82,6 +108,33 @@ def try_straight_lines(
 
     nothing = jnp.zeros(poses, bool)
     return lax.while_loop(lambda now: any_in_lockstep(left(now)), step, _Tried(found, nothing, nothing)).poses
+
+
+def _reach(
+    problem: ClosureProblem, targets: Float[Array, "driven lines"], bends: Float[Array, "driven lines"]
+) -> Poses:
+    """Move the inputs from the assembled pose to each target along the parabola with control point `bends`."""
+    system, options = problem.system, problem.options
+    distance = jnp.max(jnp.abs(bends), axis=0) + jnp.max(jnp.abs(targets - bends), axis=0)
+    whole = jnp.where(distance > 0, distance, 1.0)
+
+    def path(at: Float[Array, " lines"]) -> tuple[Array, Array]:
+        share = at / whole
+        inputs = 2 * share * (1 - share) * bends + share**2 * targets
+        direction = 2 * ((1 - 2 * share) * bends + share * targets) / whole
+        return jnp.where(at >= distance, targets, inputs), jnp.where(at > distance, 0.0, direction)
+
+    def end(fronts: Fronts) -> Float[Array, " lines"]:
+        stays = (fronts.status == Status.STALLED.value) & (fronts.at < distance + STAYS)
+        return jnp.where(fronts.at < distance, distance, jnp.where(stays, distance + STAYS, fronts.at))
+
+    along = ContinuationProblem(system, problem.geometry, options, path)
+    fronts = lax.while_loop(
+        lambda fronts: any_in_lockstep(~arrived(fronts, end(fronts))),
+        lambda fronts: substep(along, fronts, end(fronts)),
+        assembled_fronts(system, targets.shape[-1], targets.dtype),
+    )
+    return Poses(fronts.state, fronts.status, closure(system, problem.geometry, fronts.state).residual_norm)
 
 
 def _runs(found: Poses) -> Int[Array, " poses"]:
