@@ -7,21 +7,31 @@ their unbounded surfaces are in one of the sixteen states, and whether the conta
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Int
+from jaxtyping import Float, Int
 
-from jaxkin.contacts.boxes import crossing, face_box, overlapping
+from jaxkin.contacts.boxes import Boxes, crossing, face_box, overlapping
 from jaxkin.contacts.contact import Contact, Contacts, NearMiss
 from jaxkin.contacts.edges import edge_note
 from jaxkin.contacts.frames import contact_frames
 from jaxkin.contacts.reason import reason
 from jaxkin.contacts.region import ContactRegion, contact_region
+from jaxkin.contacts.slots import pins_in_slots
 from jaxkin.contacts.states import CONTACT_STATES, ContactState
-from jaxkin.contacts.tolerance import NEAR, USUAL_LENGTH, Tolerance, default_length, outline_length, reach
+from jaxkin.contacts.tolerance import (
+    NEAR,
+    NEAR_SLOT,
+    USUAL_LENGTH,
+    Tolerance,
+    default_length,
+    outline_length,
+    reach,
+    smaller_radius,
+)
 from jaxkin.contacts.touch import Touch
 from jaxkin.geometry.part import Face, Part, size
 from jaxkin.geometry.pose import Vector
@@ -45,8 +55,9 @@ def find_contacts(
     to which directions count as parallel, by default 1e-4. `fit` is the clearance, relative to the radius (0.02 by
     default), up to which a pin fills its hole (e), or a ball its bore (j) or its socket (o); with a larger clearance
     the surfaces are in contact only where they touch along a line or at a point. Two faces that miss a state by little
-    more than the tolerances, or meet only along the edge of one of them, are listed in `near_misses`; nothing is
-    guessed. `progress(done, total)` is called after each pair of parts whose boxes meet.
+    more than the tolerances, or meet only along the edge of one of them, are listed in `near_misses`, and so are pins
+    with play between the walls of a slot; nothing is guessed. `progress(done, total)` is called after each pair of
+    parts whose boxes meet.
     """
     notes = [f"{part.name}: {note}" for part in parts for note in part.notes]
     if sum(bool(part.faces) for part in parts) < 2:
@@ -67,11 +78,14 @@ def find_contacts(
         found = []
         near = crossing(boxes[i], boxes[j], margin)
         for a, b in near:
-            at = (np.maximum(boxes[i][a, 0], boxes[j][b, 0]) + np.minimum(boxes[i][a, 1], boxes[j][b, 1])) / 2
+            at = _between(boxes[i][a], boxes[j][b])
             found.append(_examine((parts[i], parts[j]), (parts[i].faces[a], parts[j].faces[b]), at, tol))
         here = [result for result in found if isinstance(result, Contact)]
         contacts += here
-        near_misses += _worth_telling([result for result in found if isinstance(result, NearMiss)], here)
+        missed = [result for result in found if isinstance(result, NearMiss)]
+        for a, b in ((i, j), (j, i)):
+            missed += _in_slots((parts[a], parts[b]), (boxes[a], boxes[b]), tol, found)
+        near_misses += _worth_telling(missed, here)
         if len(near) and not any(found):
             one, two = _with_faces(parts[i], near[:, 0]), _with_faces(parts[j], near[:, 1])
             if note := edge_note(one, two, max(tolerance.length, outlines)):
@@ -90,6 +104,11 @@ def _rounded(parts: tuple[Part, ...], length: float) -> str:
     )
 
 
+def _between(box1: Float[np.ndarray, "2 3"], box2: Float[np.ndarray, "2 3"]) -> Vector:
+    """Find the middle of what two boxes share, or of what is between them."""
+    return (np.maximum(box1[0], box2[0]) + np.minimum(box1[1], box2[1])) / 2
+
+
 def _with_faces(part: Part, indices: Int[np.ndarray, " faces"]) -> Part:
     """Take a part with some of its faces only, in their order."""
     return replace(part, faces=tuple(part.faces[index] for index in np.unique(indices)))
@@ -102,6 +121,23 @@ def _worth_telling(near_misses: list[NearMiss], contacts: list[Contact]) -> list
     """
     touching = {side for contact in contacts for side in zip(contact.parts, contact.faces, strict=True)}
     return [miss for miss in near_misses if not (miss.rim and touching & set(zip(miss.parts, miss.faces, strict=True)))]
+
+
+def _in_slots(
+    parts: tuple[Part, Part], boxes: tuple[Boxes, Boxes], tol: Tolerance, found: Sequence[Contact | NearMiss | None]
+) -> list[NearMiss]:
+    """Find the near misses, beside those that were `found`, of pins of the first part in slots of the second one."""
+    known = [{*zip(result.parts, result.faces, strict=True)} for result in found if result]
+    misses: dict[tuple[str, str], NearMiss] = {}
+    for pin, *walls in pins_in_slots(*parts, *boxes):
+        sides = []
+        for wall in walls:
+            faces, at = (parts[0].faces[pin], parts[1].faces[wall]), _between(boxes[0][pin], boxes[1][wall])
+            play = NEAR_SLOT * smaller_radius(faces[0].surface, faces[1].surface)
+            sides.append(_examine(parts, faces, at, replace(tol, near_length=max(tol.near_length, play))))
+        if all(isinstance(side, NearMiss) and not side.rim for side in sides):
+            misses |= {side.faces: side for side in sides if isinstance(side, NearMiss)}
+    return [miss for miss in misses.values() if {*zip(miss.parts, miss.faces, strict=True)} not in known]
 
 
 class _Nearly(NamedTuple):

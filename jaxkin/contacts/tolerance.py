@@ -23,6 +23,10 @@ NEAR_TILT = 0.05
 NEAR_FIT = 0.25
 """Largest clearance, interference or eccentricity of a fit that is reported, over its radius."""
 
+NEAR_SLOT = 0.1
+"""Largest gap on either side of a pin in a slot that is reported, over its radius: printed machines have 0.05. Machined
+ones have less, which `NEAR` covers."""
+
 
 @dataclass(frozen=True)
 class Tolerance:

@@ -1,6 +1,7 @@
 """The tolerances that near misses advise: given to the detection, they make the contact; those given already do not."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -75,6 +76,33 @@ def test_advice_for_gaps_closes_them(solids, gap, length):
         assert options and (length is None or options["length"] > length)
         assert options["length"] < 1.2 * gap  # hardly more than is needed
         assert [contact.state for contact in find_contacts(parts, **options)] == [miss.state]
+
+
+def slotted(solids, play, walls=(1, -1), aside=0.0):
+    """A long rail with the walls of a slot, on some sides of a pin of radius 1 that has this play to either side."""
+    pin = solids.patch(Cylinder(aside * Y, Z, 1.0, 1), TURN, (-2, 2))
+    faces = [solids.patch(Plane(side * (1 + play) * Y, -side * Y), (-20, 20), (-20, 20)) for side in walls]
+    pose = solids.random_displacement(np.random.default_rng(7))
+    rail = solids.part("rail", *(replace(solids.moved(face, pose), name=f"wall {k}") for k, face in enumerate(faces)))
+    return rail, solids.part("pin", solids.moved(pin, pose))
+
+
+@pytest.mark.parametrize("aside", [0.0, 0.02])
+def test_a_pin_with_play_in_a_slot_is_told_with_a_length_that_guides_it(solids, aside):
+    """More play than is near beside the size of the pin, 0.049, of which the nearer wall may be within."""
+    parts = slotted(solids, 0.06, aside=aside)
+    misses = find_contacts(parts).near_misses
+    assert [(miss.parts, miss.state) for miss in misses] == [(("rail", "pin"), "b")] * 2
+    assert sorted(miss.gap for miss in misses) == pytest.approx([0.06 - aside, 0.06 + aside])
+    length = max(advised(miss.reason)["length"] for miss in misses)
+    assert length < 1.11 * (0.06 + aside)
+    assert [contact.state for contact in find_contacts(parts, length=length)] == ["b", "b"]
+
+
+@pytest.mark.parametrize("slot", [{"play": 0.12}, {"play": 0.06, "walls": (1,)}, {"play": 0.06, "walls": (1, 1)}])
+def test_what_is_no_pin_in_a_slot_is_not_told(solids, slot):
+    """Too loose, or with a wall on one side only."""
+    assert not find_contacts(slotted(solids, **slot)).near_misses
 
 
 def test_no_tolerance_is_advised_where_none_helps(solids):

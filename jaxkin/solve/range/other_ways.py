@@ -29,8 +29,8 @@ from jaxkin.solve.range.poses import MAX_CORRECTION, Poses
 from jaxkin.solve.status import Status
 from jaxkin.solve.system.state import State, difference
 
-LINES = 16
-"""Number of lines that are followed together on CPUs: beside one that meets a limit, more would wait for it."""
+WAYS = 16
+"""Number of ways that are followed together on CPUs: beside one that meets a limit, more would wait for it."""
 CELL = BEYOND_LIMIT_STEP
 """Largest distance along the curve, radians or characteristic lengths, between two poses that are tried."""
 STAYS = 4 * BEYOND_LIMIT_STEP
@@ -39,14 +39,14 @@ the damped corrector, which has few for each step of the continuation."""
 
 
 class _Tried(NamedTuple):
-    """What straight lines have told so far."""
+    """What ways have told so far."""
 
     poses: Poses
     tried: Bool[Array, " poses"]
     reached: Bool[Array, " poses"]
 
 
-def try_straight_lines(
+def try_other_ways(
     problem: ClosureProblem,
     at: Float[Array, " poses"],
     inputs: Float[Array, "driven poses"],
@@ -77,7 +77,7 @@ def _follow(
 ) -> Poses:
     """Replace `failed` poses by those to which the parabolas with control points `bends` lead."""
     poses = failed.shape[0]
-    lines = group_for_device(LINES)
+    ways = group_for_device(WAYS)
     number, run, cell = jnp.arange(poses), _runs(found), jnp.floor(at / (0.5 * CELL))
     parted = jnp.concatenate([jnp.ones(1, bool), (run[1:] != run[:-1])])
     ends = parted | jnp.roll(parted, -1)
@@ -94,7 +94,7 @@ def _follow(
     def step(now: _Tried) -> _Tried:
         open_poses = left(now)
         chosen = jnp.where(jnp.any(open_poses & first), open_poses & first, open_poses)
-        which = jnp.argsort(~chosen)[:lines]
+        which = jnp.argsort(~chosen)[:ways]
         chosen, begun = chosen[which], jax.tree.map(lambda array: array[..., which], now.poses)
         other = _reach(problem, *(jnp.where(chosen, given[:, which], 0.0) for given in (inputs, bends)))
         reached = chosen & (other.status == Status.CLOSED.value)
@@ -110,21 +110,19 @@ def _follow(
     return lax.while_loop(lambda now: any_in_lockstep(left(now)), step, _Tried(found, nothing, nothing)).poses
 
 
-def _reach(
-    problem: ClosureProblem, targets: Float[Array, "driven lines"], bends: Float[Array, "driven lines"]
-) -> Poses:
+def _reach(problem: ClosureProblem, targets: Float[Array, "driven ways"], bends: Float[Array, "driven ways"]) -> Poses:
     """Move the inputs from the assembled pose to each target along the parabola with control point `bends`."""
     system, options = problem.system, problem.options
     distance = jnp.max(jnp.abs(bends), axis=0) + jnp.max(jnp.abs(targets - bends), axis=0)
     whole = jnp.where(distance > 0, distance, 1.0)
 
-    def path(at: Float[Array, " lines"]) -> tuple[Array, Array]:
+    def path(at: Float[Array, " ways"]) -> tuple[Array, Array]:
         share = at / whole
         inputs = 2 * share * (1 - share) * bends + share**2 * targets
         direction = 2 * ((1 - 2 * share) * bends + share * targets) / whole
         return jnp.where(at >= distance, targets, inputs), jnp.where(at > distance, 0.0, direction)
 
-    def end(fronts: Fronts) -> Float[Array, " lines"]:
+    def end(fronts: Fronts) -> Float[Array, " ways"]:
         stays = (fronts.status == Status.STALLED.value) & (fronts.at < distance + STAYS)
         return jnp.where(fronts.at < distance, distance, jnp.where(stays, distance + STAYS, fronts.at))
 
