@@ -55,6 +55,10 @@ def sweep(files: Sequence[Path], out: Path, options: Options) -> None:
         with progress(1 + len(WRITERS) + len(study.effects)) as step:
             step("solving")
             motion = jax.block_until_ready(study.sweep())
+            said, paths = motion, []
+            for filename in WRITERS:  # before effects: none that fails keeps the motion from being written
+                step(f"writing {filename}")
+                paths += motion.save(out, only=filename)
             for name in study.effects:
                 step(f"computing {name}")
                 try:
@@ -63,10 +67,6 @@ def sweep(files: Sequence[Path], out: Path, options: Options) -> None:
                     if not about_input(error):
                         raise
                     failed[name] = str(error)
-            said, paths = motion, []
-            for filename in WRITERS:
-                step(f"writing {filename}")
-                paths += motion.save(out, only=filename)
             for name, result in results.items():
                 paths += [result.save(out / f"{name}.csv"), result.plot(out / f"{name}.png")]
     report.say(f"{named(files)}: {study.mechanism.mobility()}")

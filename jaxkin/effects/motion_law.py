@@ -93,6 +93,11 @@ LAWS: dict[str, Law] = {
 """Name -> displacement over time, both from 0 to 1."""
 
 
+SMALL_JUMP = 100
+"""Jump of a derivative over its largest value that is none, in roots of rounding: derivatives are looked at a root of
+rounding of the shortest segment beside its ends, and those of no law grow by more in that time."""
+
+
 @dataclass(frozen=True)
 class Segment:
     """A piece of a motion law."""
@@ -121,8 +126,8 @@ class MotionLaw:
         """Make evenly spaced times from the beginning to the end."""
         return np.linspace(0.0, self.duration, poses)
 
-    def __call__(self, times: Any, order: int = 0) -> Float[Array, " poses"]:
-        """Displacements at some times, or with `order` 1, 2, 3 their velocities, accelerations, jerks.
+    def __call__(self, times: Any, order: int = 0) -> Float[Array, "*times"]:
+        """Displacements at one time or some, or with `order` 1, 2, 3 their velocities, accelerations, jerks.
 
         Where a derivative jumps between two segments it is that of the later one.
         """
@@ -141,11 +146,26 @@ class MotionLaw:
         return jnp.where(time > self.duration, self.start + sum(segment.rise for segment in self.segments), found)
 
     def __str__(self) -> str:
-        lines = [f"Motion law of {len(self.segments)} segments over {self.duration:g}, from {self.start:g}"]
+        count = "1 segment" if len(self.segments) == 1 else f"{len(self.segments)} segments"
+        lines = [f"Motion law of {count} over {self.duration:g}, from {self.start:g}"]
         lines += [f"  {each.law}: {each.rise:+g} in {each.duration:g}" for each in self.segments]
-        times = self.times(2001)
-        most = [float(jnp.abs(self(times, order)).max()) for order in (1, 2, 3)]
-        return "\n".join([*lines, "  most: velocity {:.4g}, acceleration {:.4g}, jerk {:.4g}".format(*most)])
+        told = ("infinite" if np.isinf(most) else f"{most:.4g}" for most in self.largest())
+        return "\n".join([*lines, "  most: velocity {}, acceleration {}, jerk {}".format(*told)])
+
+    def largest(self) -> tuple[float, float, float]:
+        """Find the largest velocity, acceleration and jerk without their signs: infinite where the derivative before
+        jumps, also from the rest before the law and to that after it."""
+        ends = np.array([0.0, *accumulate(segment.duration for segment in self.segments)])
+        root = float(jnp.finfo(self(0.0).dtype).eps) ** 0.5
+        beside = ends + root * min(segment.duration for segment in self.segments) * np.array([[-1.0], [1.0]])
+        found, jumps = [], False
+        for order in (1, 2, 3):
+            most = float(jnp.abs(self(self.times(2001), order)).max())
+            found.append(np.inf if jumps else most)
+            before, after = np.asarray(self(beside.ravel(), order)).reshape(2, -1)
+            jumps |= bool(np.any(np.abs(after - before) > SMALL_JUMP * root * most))
+        velocity, acceleration, jerk = found
+        return velocity, acceleration, jerk
 
     def plot(self, path: str | Path) -> Path:
         """Draw displacement, velocity, acceleration and jerk over time into a picture file; returns its path."""
@@ -167,12 +187,12 @@ class MotionLaw:
 
 
 @partial(whole_program, static=(0, 1))
-def _evaluated(law: MotionLaw, order: int, times: Float[Array, " poses"]) -> Float[Array, " poses"]:
+def _evaluated(law: MotionLaw, order: int, times: Float[Array, "*times"]) -> Float[Array, "*times"]:
     """Compute a derivative of a motion law in one program: each operation by itself would be compiled, too."""
     function = law._at
     for _ in range(order):
         function = _derivative(function)
-    return jax.vmap(function)(times)
+    return jax.vmap(function)(times.ravel()).reshape(times.shape)
 
 
 def _derivative(function: Callable[[Array], Array]) -> Callable[[Array], Array]:

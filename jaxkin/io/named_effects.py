@@ -14,6 +14,7 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
+from jaxkin._arguments import by_name, one_number
 from jaxkin._names import closest, listed, nearest
 from jaxkin.effects.clashes import clashes
 from jaxkin.effects.contact_validity import contact_validity
@@ -64,10 +65,12 @@ def _forces(
 
 def _in_radians(motion: Motion, effect: str, speeds: Mapping[str, float | int]) -> dict[str, float]:
     """Convert speeds of driven coordinates in degrees into radians; those of lengths stay."""
-    return {
-        name: float(speed) if is_length(_coordinate_name(motion, effect, name)) else float(np.radians(speed))
-        for name, speed in speeds.items()
-    }
+    example = ", ".join(f'"{name}" = 10' for name in motion.inputs)
+    found = {}
+    for name, speed in by_name(speeds, f"{effect}: speeds", f"{{ {example} }}").items():
+        known_speed = float(one_number(speed, f"{effect}: the speed of {name!r}"))
+        found[name] = known_speed if is_length(_coordinate_name(motion, effect, name)) else np.radians(known_speed)
+    return found
 
 
 def _coordinate_name(motion: Motion, effect: str, name: str) -> str:

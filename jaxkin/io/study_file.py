@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
-from pydantic import BaseModel, BeforeValidator, Field, ValidationError, model_validator
+from pydantic import BaseModel, BeforeValidator, Field, PlainValidator, ValidationError, model_validator
 
 from jaxkin._files import check_file
 from jaxkin.geometry.movements import is_length
@@ -58,6 +58,13 @@ def _as_range(value: object) -> object:
     if isinstance(value, dict):
         return value
     raise ValueError(f"expected a text {FORM}, a list of numbers, or a table, got {value!r}")
+
+
+def _settings(value: object) -> object:
+    """Take whether an effect is asked for, or its settings."""
+    if isinstance(value, bool | dict):
+        return value
+    raise ValueError(f'expected true, false, or a table of settings such as {{ density = "steel" }}, got {value!r}')
 
 
 class ToleranceTable(BaseModel):
@@ -194,7 +201,7 @@ class StudyFile(BaseModel):
     couplings: dict[str, CouplingTable] = {}
     drive: Drive = {}
     instead: InsteadTable = InsteadTable()
-    effects: dict[str, bool | dict[str, Any]] = {}
+    effects: dict[str, Annotated[bool | dict[str, Any], PlainValidator(_settings)]] = {}
 
     @model_validator(mode="after")
     def _solids_or_joints(self) -> StudyFile:

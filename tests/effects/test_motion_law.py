@@ -61,6 +61,30 @@ def test_derivatives_are_those_of_the_displacement():
 
 
 @pytest.mark.long
+def test_one_time_is_as_many_and_has_a_gradient():
+    law = jk.motion_law([("cycloidal", 1.0, 2.0)])
+    np.testing.assert_allclose(law(0.3), law([0.3])[0], atol=1e-15)
+    np.testing.assert_allclose(jax.vmap(jax.grad(law))(law.times(5)), law(law.times(5), order=1), atol=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("segments", "infinite"),
+    [
+        ([("cycloidal", 1.0, 1.0)], [False, False, False]),
+        ([("3-4-5", 1.0, 1.0), ("dwell", 0.2), ("4-5-6-7", 0.01, -1.0)], [False, False, False]),
+        ([("harmonic", 1.0, 1.0), ("harmonic", 1.0, -1.0)], [False, False, True]),
+        ([("dwell", 0.5), ("constant speed", 1.0, 2.0), ("dwell", 0.5)], [False, True, True]),
+    ],
+)
+@pytest.mark.parametrize("x64", [True, False])
+def test_what_jumps_has_an_infinite_derivative(segments, infinite, x64):
+    """A harmonic law begins and ends with an acceleration, a constant speed with a velocity."""
+    with jax.enable_x64(x64):
+        law = jk.motion_law(segments)
+        assert np.isinf(law.largest()).tolist() == infinite
+        assert ("infinite" in str(law)) == any(infinite)
+
+
 def test_a_law_is_drawn(tmp_path):
     path = jk.motion_law([("cycloidal", 1.0, 1.0), ("dwell", 0.5)]).plot(tmp_path / "law.png")
     assert path.stat().st_size > 10_000

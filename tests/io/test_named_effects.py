@@ -1,5 +1,6 @@
 """Effects by name: computed where a study or the command line asks for them, and nowhere else."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -102,6 +103,25 @@ def test_an_effect_that_fails_keeps_nothing_else_from_being_written(tmp_path):
 
 
 @pytest.mark.long
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        ({"rates": {"A": "10"}}, "rates: the speed of 'A' must be one finite number, got '10'"),
+        ({"rates": {"A": [10, 20]}}, "rates: the speed of 'A' must be one finite number, got [10, 20]"),
+        ({"rates": {"A": np.nan}}, "rates: the speed of 'A' must be one finite number, got nan"),
+    ],
+)
+def test_speeds_that_are_none_are_told(asked, said):
+    motion = mechanisms.planar_fourbar(1.0).sweep({"A": np.linspace(0.0, 1.0, 3)})
+    with pytest.raises(ValueError, match=re.escape(said)):
+        compute(motion, asked)
+
+
+def test_an_effect_is_asked_for_by_a_word_or_its_settings(tmp_path):
+    with pytest.raises(ValueError, match=r"effects\.rates: expected true, false, or a table of settings"):
+        study(tmp_path, rates="360")
+
+
 def test_parts_without_solids_and_contacts_are_told_in_words_of_a_study():
     motion = mechanisms.planar_fourbar().sweep({"A": [0.0, 0.1]})
     said = missing(motion, ())
@@ -158,6 +178,10 @@ def test_forces_by_name(tmp_path):
         found["drive_forces"].forces["ground-crank.phi"], direct.forces["ground-crank.phi"], rtol=1e-12
     )
     assert list(found) == ["drive_forces", "reactions"]
+    with pytest.raises(
+        ValueError, match='forces: speeds are given by name, as in { "ground-crank.phi" = 10 }, got 360'
+    ):
+        compute(motion, {"forces": {"density": 7850, "speeds": 360}})
 
 
 @pytest.mark.long
