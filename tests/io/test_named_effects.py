@@ -178,9 +178,7 @@ def test_forces_by_name(tmp_path):
         found["drive_forces"].forces["ground-crank.phi"], direct.forces["ground-crank.phi"], rtol=1e-12
     )
     assert list(found) == ["drive_forces", "reactions"]
-    with pytest.raises(
-        ValueError, match='forces: speeds are given by name, as in { "ground-crank.phi" = 10 }, got 360'
-    ):
+    with pytest.raises(ValueError, match=r"forces: speeds are given by name, .* got 360"):
         compute(motion, {"forces": {"density": 7850, "speeds": 360}})
 
 

@@ -59,10 +59,11 @@ class Friction:
             )
             rests = np.asarray(self.rests[name]) & closed
             if rests.any():
-                most = np.nanmax(np.where(rests, np.asarray(self.most[name]), np.nan))
+                most = np.asarray(self.most[name])[rests]
+                known = f"up to {np.nanmax(most):.4g} N" if np.isfinite(most).any() else "of any size"
                 found.append(
                     f"{name} does not slide in {rests.sum()} poses, first {np.argmax(rests)}: its friction is taken as "
-                    f"zero there, and may be up to {most:.4g} N in any direction"
+                    f"zero there, and may be {known} in any direction"
                 )
         locked = np.asarray(self.locked)
         if locked.any():

@@ -93,9 +93,11 @@ class Reactions:
     def __str__(self) -> str:
         closed = np.asarray(self.motion.closed)
         lines = [f"Reactions of {len(self.forces)} joints in {closed.sum()} closed poses of {len(closed)}"]
+        forces = {name: np.linalg.norm(np.asarray(rows), axis=1) for name, rows in self.forces.items()}
         if not closed.any():
             return lines[0]
-        forces = {name: np.linalg.norm(np.asarray(rows), axis=1) for name, rows in self.forces.items()}
+        if not any(np.isfinite(each).any() for each in forces.values()):
+            return f"{lines[0]}\n  unknown: a load or a rate is no finite number in any of them"
         order = sorted(forces, key=lambda name: -float(np.nanmax(forces[name])))
         width = max(map(len, order[:MAX_LINES]))
         for name in order[:MAX_LINES]:
