@@ -156,12 +156,12 @@ def test_it_prints_draws_and_saves_and_open_poses_are_nan(tmp_path):
 
 
 @pytest.mark.long
-@pytest.mark.long
 def test_loads_that_are_no_numbers_are_told(motion, masses):
     found = jk.reactions(motion, masses, applied=[jk.force("coupler", (30.0, 60.0, 0.0), (np.nan, 0.0, 0.0))])
     assert "unknown" in str(found)
 
 
+@pytest.mark.long
 def test_a_freedom_without_a_drive_is_told():
     """Two hinges in a row, the second without a drive: what gravity asks of it nothing holds."""
     joints = [
