@@ -68,7 +68,8 @@ class Equilibrium:
         lines += [f"  {value:.9g}, {words}" for value, (words, _) in zip(self.values, self._told(), strict=True)]
         if not lines:
             return f"No equilibrium of {self.name} from {poses}"
-        return "\n".join([f"{len(lines)} equilibria of {self.name} from {poses}", *lines])
+        count = "1 equilibrium" if len(lines) == 1 else f"{len(lines)} equilibria"
+        return "\n".join([f"{count} of {self.name} from {poses}", *lines])
 
     def _told(self) -> list[tuple[str, str]]:
         """Say of each single equilibrium whether it is stable, in words and by a marker."""
@@ -138,8 +139,13 @@ def equilibrium(
 
     forces = force(inputs)
     eps, name = float(jnp.finfo(float).eps), next(iter(coordinates(mechanism.linkage, [key])))
-    none = np.abs(forces) <= NO_FORCE * eps * _weight(mechanism, name, masses, gravity)
-    indifferent, at_zero = _runs(none)
+    least = NO_FORCE * eps * _weight(mechanism, name, masses, gravity)
+    none = np.abs(forces) <= least
+    between = none[:-1] & none[1:]  # two equilibria may be neighbours, with forces between them
+    if between.any():
+        between[between] = np.abs(force(0.5 * (inputs[:-1] + inputs[1:])[between])) <= least
+    indifferent = _runs(between)
+    at_zero = np.flatnonzero(none & ~np.append(between, False) & ~np.append(False, between))
     forces = np.where(none, 0.0, forces)
     changing = np.flatnonzero(forces[:-1] * forces[1:] < 0)
     ends = inputs[changing], inputs[changing + 1], forces[changing], forces[changing + 1]
@@ -166,13 +172,9 @@ def _weight(mechanism: Mechanism, name: str, masses: Masses | None, gravity: Any
     return float(np.linalg.norm(np.asarray(gravity, float)) * np.sum(np.asarray(masses.mass) * lever))
 
 
-def _runs(holds: Bool[np.ndarray, " poses"]) -> tuple[Int[np.ndarray, "runs 2"], Int[np.ndarray, " single"]]:
-    """Find where something holds: the first and the last of neighbouring poses, and the poses without such a
-    neighbour."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], holds, [False]]).astype(int)))
-    runs = edges.reshape(-1, 2) - [0, 1]
-    single = runs[:, 0] == runs[:, 1]
-    return runs[~single], runs[single, 0]
+def _runs(between: Bool[np.ndarray, " gaps"]) -> Int[np.ndarray, "runs 2"]:
+    """Find the first and the last pose of each run of poses between which something holds."""
+    return np.flatnonzero(np.diff(np.concatenate([[False], between, [False]]).astype(int))).reshape(-1, 2)
 
 
 def _refined(

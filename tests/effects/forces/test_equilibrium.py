@@ -31,6 +31,17 @@ def test_a_pendulum_hangs_or_stands():
 
 
 @pytest.mark.long
+@pytest.mark.parametrize("poses", [2, 3, 11])
+def test_equilibria_at_the_poses_of_the_range_are_found(poses):
+    """The weight has no lever at -pi/2 and pi/2, where rounding leaves some 1e-16 of it, and one between."""
+    mechanism = pendulum()
+    own = jk.masses(mechanism, given={"arm": jk.Mass(1.0, (1.0, 0.0, 0.0))})
+    found = jk.equilibrium(mechanism, {"A": np.linspace(-np.pi / 2, np.pi / 2, poses)}, own, gravity=(0, -9.81, 0))
+    np.testing.assert_allclose(found.values, [-np.pi / 2, np.pi / 2], atol=1e-9)
+    assert found.stable.tolist() == [True, False] and len(found.indifferent) == 0
+
+
+@pytest.mark.long
 def test_a_spring_against_a_weight(tmp_path):
     """k q = m g r cos(q), stable; and with a soft spring there may be none in the range."""
     mechanism = pendulum()
