@@ -85,6 +85,20 @@ def test_a_circle_has_neither(motion):
 
 
 @pytest.mark.long
+def test_a_curve_that_is_drawn_twice_has_what_one_turn_has(motion):
+    """Also at its cusp, beside which the steps of both turns cut each other."""
+    point = (*coupler_point(START, 50.0, -60.0)[0], 0.0)
+    twice = motion.mechanism.sweep({"A": np.linspace(0.0, 4 * np.pi, 361)})
+    once, again = (jk.coupler_curve(each, "coupler", point) for each in (motion, twice))
+    assert len(once.crossings) == len(again.crossings) > 0
+    for one, other in zip(once.crossings, again.crossings, strict=True):
+        np.testing.assert_allclose(one.inputs, other.inputs, atol=1e-9)
+    pole = np.asarray(jk.screw_axes(jk.velocities(motion, {"A": 1.0}), "coupler").moving)[40]
+    once, again = (jk.coupler_curve(each, "coupler", pole) for each in (motion, twice))
+    assert len(again.cusps) == len(once.cusps) == 1 and len(again.crossings) == len(once.crossings)
+
+
+@pytest.mark.long
 def test_it_prints_draws_and_saves(motion, tmp_path):
     found = jk.coupler_curve(motion, "coupler", (*coupler_point(START, 50.0, -60.0)[0], 0.0))
     assert str(found).startswith("Curve of a point of coupler over A.phi, 181 poses, plane")
