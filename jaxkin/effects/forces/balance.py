@@ -12,9 +12,14 @@ satisfy these equations, those of least norm minimise
     sum over joints of |P w|^2 + sum over couplings of f^2,    P = 1 - S (S^T S)^-1 S^T,
 
 where |P w| is taken about the point of the joint, torques over the size of the mechanism. These are the forces of
-joints of equal stiffness. The equations are enforced by a penalty and by multipliers (the augmented Lagrangian), with
-one factorisation of a positive definite matrix. A freedom that nothing drives may leave no x that satisfies them: then
-what violates them least, which is what would hold the freedom.
+joints of equal stiffness. With T that makes S orthonormal, |P w|^2 is |w|^2 less the square of T S^T w, which is
+T (t + g f) where the equations hold: so with E the matrix of the equations T (S^T w - g f) = T t by x and f,
+
+    sum over joints of |w|^2 - 2 (T S^T w) . T (t + g f) + |T (t + g f)|^2, plus sum over couplings of f^2
+
+has the same minimum, and is well-conditioned in every pose. The equations are not where a small force holds a large
+one, as near dead centres: see `jaxkin.solve.linear.constrained`. A freedom that nothing drives may leave no x that
+satisfies them: then what violates them least, which is what would hold the freedom.
 """
 
 from __future__ import annotations
@@ -24,10 +29,9 @@ from typing import Any, NamedTuple
 
 import jax.numpy as jnp
 import numpy as np
-from jax import lax
 from jaxtyping import Array, Float
 
-from jaxkin.effects.forces.balance_equations import blocks, equations, of_chords, second_derivative, stacked, tree_of
+from jaxkin.effects.forces.balance_equations import equations, of_chords, second_derivative, stacked, tree_of
 from jaxkin.effects.forces.changes import Rows
 from jaxkin.effects.forces.joint_balance import JointBalance, Wrenches
 from jaxkin.effects.forces.screws import Places, Scale, Twist, cross
@@ -35,15 +39,9 @@ from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.solve.linear.least_norm import factor_positive_definite
+from jaxkin.solve.linear.constrained import column_sums, minimise_constrained
 from jaxkin.solve.range.groups import in_groups
 
-PENALTY = 0.1
-"""Penalty of the equations over the norm, in one over square roots of rounding: 6.7e6 in float64. More would leave
-fewer digits to what is free, less would need more steps."""
-STEPS = 3
-"""Steps of the multipliers: each leaves of the error its ratio to the smallest eigenvalue of the balance times the
-penalty, which is 1e-4 or less away from singular poses."""
 GROUP = 512
 """Poses that are solved at once: the matrices of so many stay in the cache."""
 
@@ -145,12 +143,15 @@ def _solve(
     ]
     joints = [JointBalance.of(arm, every, own) for arm, every, own in zip(found.arms, found.screws, free, strict=True)]
     none = jnp.zeros(poses)
-    loads = [[loaded.get((number, k), none) for k in own] for number, own in enumerate(free)]
-    ties = [[[each.get((number, k), none) for k in own] for number, own in enumerate(free)] for each in found.gradients]
+
+    def in_free(given: dict[tuple[int, int], Array]) -> list[Float[Array, "free poses"]]:
+        each = ([given.get((number, k), none) for k in own] for number, own in enumerate(free))
+        return [jnp.stack(rows) if rows else jnp.zeros((0, poses)) for rows in each]
+
+    loads, ties = in_free(loaded), [in_free(gradients) for gradients in found.gradients]
     carried_by = carried(linkage, acting, poses)
     chords = len(tree.chords)
     count = 6 * chords
-    kappa = PENALTY / float(jnp.finfo(found.arms[0].dtype).eps) ** 0.5
 
     def wrenches(z: Float[Array, "n poses"]) -> list[Wrenches]:
         unknown = z[:count].reshape(chords, 6, poses)
@@ -160,39 +161,22 @@ def _solve(
             for number, shares in enumerate(tree.shares)
         ]
 
-    begun = wrenches(jnp.zeros((count, poses)))
-    along = stacked([joint.along(w) for joint, w in zip(joints, begun, strict=True)], poses)
-    load, z = stacked(loads, poses), jnp.zeros((count + len(ties), poses))
-    left = along - load
+    z = jnp.zeros((count + len(ties), poses))
     if len(z):
-        conditions = equations(tree, joints, ties, poses)
-        factored = factor_positive_definite(second_derivative(tree, joints, conditions, kappa, poses))
-        norm = blocks(tree, [joint.norm() for joint in joints], poses)
-        slope = of_chords(tree, [joint.normed(w) for joint, w in zip(joints, begun, strict=True)], poses)
-
-        def step(_: Any, given: Any) -> Any:
-            z, left, multipliers = given
-            x, f = z[:count], z[count:]
-            pull = multipliers + kappa * left
-            # what is transmitted along the freedoms, which the norm leaves out
-            inside = left + load + jnp.sum(conditions.ties * f, axis=1)
-            of_x = slope + jnp.sum(norm * x, axis=1) + jnp.sum(conditions.weighted * (pull - inside)[:, None], axis=0)
-            of_f = f - jnp.sum(conditions.weighted_ties * pull[:, None], axis=0)
-            z = z - factored(jnp.concatenate([of_x, of_f]))
-            left = along - load + jnp.sum(conditions.along * z[:count], axis=1)
-            left = left - jnp.sum(conditions.ties * z[count:], axis=1)
-            return z, left, multipliers + kappa * left
-
-        # a compiled loop, before which all else is computed once: XLA would compute it anew in every step
-        z, left, _ = lax.fori_loop(0, STEPS, step, (z, left, jnp.zeros_like(left)))
-    every = wrenches(z)
-    held, first = [], 0
-    for own, joint in zip(free, linkage.joints, strict=True):
-        rows = [none] * joint.freedoms
+        begun, system = wrenches(z), equations(tree, joints, ties, poses)
+        load = stacked([joint.scaled(own) for joint, own in zip(joints, loads, strict=True)], poses)
+        right = load - stacked([joint.scaled(joint.along(w)) for joint, w in zip(joints, begun, strict=True)], poses)
+        normed = of_chords(tree, [joint.normed(w) for joint, w in zip(joints, begun, strict=True)], poses)
+        slope = jnp.concatenate([column_sums(system.chords, load) - normed, column_sums(system.couplings, right)])
+        z = minimise_constrained(second_derivative(tree, joints, system, poses), slope, system.rows, right)
+    every, held = wrenches(z), []
+    for number, (own, joint) in enumerate(zip(free, joints, strict=True)):
+        left = joint.along(every[number]) - loads[number]
+        left = left - sum((strength * tie[number] for strength, tie in zip(z[count:], ties, strict=True)), 0.0)
+        rows = [none] * linkage.joints[number].freedoms
         for k, column in enumerate(own):
-            rows[column] = left[first + k]
-        first += len(own)
-        held.append(stacked(rows, poses))
+            rows[column] = left[k]
+        held.append(jnp.stack(rows) if rows else jnp.zeros((0, poses)))
     return Transmitted(tuple(every), tuple(held), tuple(z[count:]))
 
 

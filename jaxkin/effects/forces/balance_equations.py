@@ -7,13 +7,12 @@ derivatives by the former are added up to derivatives by the latter.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from jaxkin.effects.forces.joint_balance import JointBalance, Wrenches
-from jaxkin.effects.forces.screws import Twist
 from jaxkin.linkage.linkage import Linkage
 
 
@@ -50,45 +49,28 @@ def tree_of(linkage: Linkage) -> Tree:
 
 
 class Equations(NamedTuple):
-    """The equations S^T w = t + g f of all freedoms that have no drive, by the unknowns."""
+    """The equations T S^T w = T (t + g f) of all freedoms that have no drive, by the unknowns."""
 
-    along: Float[Array, "equations wrenches poses"]
-    """S^T: by the wrenches of the chords."""
-    weighted: Float[Array, "equations wrenches poses"]
-    """(S^T S)^-1 S^T, joint by joint."""
-    ties: Float[Array, "equations couplings poses"]
-    """g: by the forces of the couplings."""
-    weighted_ties: Float[Array, "equations couplings poses"]
-    """(S^T S)^-1 g."""
+    chords: Float[Array, "equations wrenches poses"]
+    """T S^T: by the wrenches of the chords."""
+    couplings: Float[Array, "equations couplings poses"]
+    """-T g: by the forces of the couplings."""
+
+    @property
+    def rows(self) -> Float[Array, "equations unknowns poses"]:
+        """By all unknowns: wrenches of the chords, then forces of the couplings."""
+        return jnp.concatenate([self.chords, self.couplings], axis=1)
 
 
-def equations(
-    tree: Tree, joints: Sequence[JointBalance], ties: Sequence[Sequence[Sequence[Array]]], poses: int
-) -> Equations:
+def equations(tree: Tree, joints: Sequence[JointBalance], ties: Sequence[Sequence[Array]], poses: int) -> Equations:
     """Collect the equations of all joints."""
-    none = jnp.zeros((6, poses))
-
-    def by_chords(screws: Sequence[Twist], shares: Sequence[int]) -> list[Array]:
-        rows = [[share * screw if share else none for share in shares] for screw in screws]
-        return [jnp.concatenate(row) if row else jnp.zeros((0, poses)) for row in rows]
-
-    along, weighted, own, weighted_own = [], [], [], []
+    by_chords, by_couplings = [jnp.zeros((0, 6 * len(tree.chords), poses))], [jnp.zeros((0, len(ties), poses))]
     for number, (joint, shares) in enumerate(zip(joints, tree.shares, strict=True)):
-        if not joint.screws:
-            continue
-        screws = jnp.stack(joint.screws)
-        gradients = jnp.stack([stacked(tie[number], poses) for tie in ties], axis=1) if ties else screws[:, :0]
-        along += by_chords(joint.screws, shares)
-        weighted += by_chords(list(joint.metric(screws)), shares)
-        own.append(gradients)
-        weighted_own.append(joint.metric(gradients))
-    wrenches, couplings = (0, 6 * len(tree.chords), poses), jnp.zeros((0, len(ties), poses))
-    return Equations(
-        jnp.stack(along) if along else jnp.zeros(wrenches),
-        jnp.stack(weighted) if weighted else jnp.zeros(wrenches),
-        jnp.concatenate([*own, couplings]),
-        jnp.concatenate([*weighted_own, couplings]),
-    )
+        screws = joint.scaled(joint.screws)
+        by_chords.append(jnp.concatenate([screws[:, :0], *(share * screws for share in shares)], axis=1))
+        gradients = [joint.scaled(tie[number])[:, None] for tie in ties]
+        by_couplings.append(-jnp.concatenate([screws[:, :0], *gradients], axis=1))
+    return Equations(jnp.concatenate(by_chords), jnp.concatenate(by_couplings))
 
 
 def blocks(tree: Tree, each: Sequence[Array], poses: int) -> Float[Array, "wrenches wrenches poses"]:
@@ -113,23 +95,21 @@ def of_chords(tree: Tree, each: Sequence[Wrenches], poses: int) -> Float[Array, 
     return jnp.concatenate(rows) if rows else jnp.zeros((0, poses))
 
 
-def stacked(rows: Any, poses: int) -> Float[Array, "_ poses"]:
-    """Stack rows, or rows of rows; none at all give no row."""
-    each = [row for own in rows for row in (own if isinstance(own, list) else [own])]
-    return jnp.stack(each) if each else jnp.zeros((0, poses))
+def stacked(rows: Sequence[Float[Array, "_ poses"]], poses: int) -> Float[Array, "_ poses"]:
+    """Stack the rows of all joints; no joints have none."""
+    return jnp.concatenate([jnp.zeros((0, poses)), *rows])
 
 
 def second_derivative(
-    tree: Tree, joints: Sequence[JointBalance], found: Equations, kappa: float, poses: int
+    tree: Tree, joints: Sequence[JointBalance], found: Equations, poses: int
 ) -> Float[Array, "n n poses"]:
-    """The second derivative by all unknowns: wrenches of the chords, then forces of the couplings."""
-    by_chords = blocks(tree, [joint.stiffness(kappa) for joint in joints], poses)
-    count = found.ties.shape[1]
+    """The second derivative by all unknowns: see `jaxkin.effects.forces.balance`."""
+    by_chords = blocks(tree, [joint.norm() for joint in joints], poses)
+    count = found.couplings.shape[1]
     if not count:
         return by_chords
-    # a coupling enters the equations of its coordinates by -g f
-    across = -kappa * _products(found.weighted, found.ties)
-    own = kappa * _products(found.weighted_ties, found.ties) + jnp.eye(count)[..., None]
+    across = _products(found.chords, found.couplings)
+    own = _products(found.couplings, found.couplings) + jnp.eye(count)[..., None]
     return jnp.concatenate(
         [jnp.concatenate([by_chords, across], axis=1), jnp.concatenate([across.swapaxes(0, 1), own], axis=1)]
     )

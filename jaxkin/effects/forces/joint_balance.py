@@ -1,6 +1,6 @@
 """A joint in the balance of all parts: the norm of what it transmits, and the equations along its freedoms.
 
-See `jaxkin.effects.forces.balance` for P and S.
+See `jaxkin.effects.forces.balance` for P, S and T.
 """
 
 from __future__ import annotations
@@ -12,11 +12,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from jaxkin.effects.forces.screws import Twist, cross, velocity_at
-from jaxkin.solve.linear.ldl import factor_ldl
-
-DEPENDENT = 1e4
-"""What is added to S^T S, in units of rounding times its mean square, where coordinates of a joint may depend on each
-other."""
+from jaxkin.solve.linear.orthonormal_rows import orthonormal_rows
 
 Wrenches = Float[Array, "6 poses"]
 """Torque over the size of the mechanism, then force: newtons. About the middle of the mechanism."""
@@ -26,31 +22,29 @@ class JointBalance(NamedTuple):
     """A joint in each pose: the norm of its wrenches, and what it lets through, about the middle of the mechanism."""
 
     arm: Float[Array, "3 poses"]
-    screws: list[Twist]
-    """Unit twists of its free coordinates."""
-    inverse: Float[Array, "free free poses"]
-    """(S^T S)^-1."""
+    screws: Float[Array, "free 6 poses"]
+    """S^T: unit twists of its free coordinates."""
+    made_by: Float[Array, "free free poses"]
+    """T, which makes them orthonormal at the point of the joint: T S^T = U^T."""
 
     @staticmethod
     def of(arm: Float[Array, "3 poses"], every: Sequence[Twist], free: Sequence[int]) -> JointBalance:
-        own, poses = [every[k] for k in free], arm.shape[1]
-        if not own:
-            return JointBalance(arm, [], jnp.zeros((0, 0, poses)))
+        poses = arm.shape[1]
+        if not free:
+            return JointBalance(arm, jnp.zeros((0, 6, poses)), jnp.zeros((0, 0, poses)))
+        screws = jnp.stack([every[k] for k in free])
         # the norm is taken at the point of the joint
-        rows = jnp.stack([jnp.concatenate([s[:3], velocity_at(s, arm)]) for s in own])
-        unit = jnp.broadcast_to(jnp.eye(len(own))[..., None], (len(own), len(own), poses))
-        return JointBalance(arm, own, factor_ldl(rows, DEPENDENT * float(jnp.finfo(arm.dtype).eps))(unit))
+        rows = jnp.stack([jnp.concatenate([s[:3], velocity_at(s, arm)]) for s in screws])
+        return JointBalance(arm, screws, orthonormal_rows(rows).made_by)
 
-    def along(self, wrench: Wrenches) -> list[Float[Array, " poses"]]:
+    def along(self, wrench: Wrenches) -> Float[Array, "free poses"]:
         """S^T w."""
-        return [jnp.sum(s * wrench, axis=0) for s in self.screws]
+        return jnp.sum(self.screws * wrench[None], axis=1)
 
-    def metric(self, rows: Float[Array, "free *sides poses"]) -> Float[Array, "free *sides poses"]:
-        """(S^T S)^-1 times rows."""
-        if not self.screws:
-            return rows
-        inverse = self.inverse if rows.ndim == 2 else self.inverse[:, :, None]
-        return jnp.sum(inverse * rows[None], axis=1)
+    def scaled(self, rows: Float[Array, "free *sides poses"]) -> Float[Array, "free *sides poses"]:
+        """T times rows: equations along the freedoms, whose errors have the norm of wrenches."""
+        made_by = self.made_by if rows.ndim == 2 else self.made_by[:, :, None]
+        return jnp.sum(made_by * rows[None], axis=1)
 
     def at_point(self, wrench: Wrenches) -> Wrenches:
         """The wrench about the point of the joint."""
@@ -71,11 +65,3 @@ class JointBalance(NamedTuple):
         return jnp.concatenate(
             [jnp.concatenate([eye, -lever], axis=1), jnp.concatenate([lever, outer], axis=1)], axis=0
         )
-
-    def stiffness(self, kappa: float) -> Float[Array, "6 6 poses"]:
-        """Second derivative of |P w|^2 / 2, and of the penalty of S^T w."""
-        if not self.screws:
-            return self.norm()
-        rows = jnp.stack(self.screws)
-        weighted = (kappa - 1) * self.metric(rows)
-        return self.norm() + sum(s[:, None] * w[None] for s, w in zip(rows, weighted, strict=True))

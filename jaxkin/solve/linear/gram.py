@@ -31,6 +31,11 @@ def row_products(one: Matrix, other: Float[Array, "others columns poses"]) -> Fl
     return jnp.einsum("rcp,ocp->rop", one, other)
 
 
+def product(one: Matrix, other: Float[Array, "columns others poses"]) -> Float[Array, "rows others poses"]:
+    """Compute A B at every pose."""
+    return row_products(one, other.swapaxes(0, 1))
+
+
 def column_products(one: Matrix, other: Float[Array, "rows others poses"]) -> Float[Array, "columns others poses"]:
     """Compute A^T B at every pose."""
     if len(one) < MIN_MATMUL_ROWS:

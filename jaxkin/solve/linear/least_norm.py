@@ -20,10 +20,10 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
-from jaxkin.solve.linear.cholesky import factor_by_library, factor_cholesky
+from jaxkin.solve.linear.cholesky import factor_cholesky
 from jaxkin.solve.linear.gauss_jordan import factor_gauss_jordan
 from jaxkin.solve.linear.gram import Damping, Matrix, Vector, mean_square
-from jaxkin.solve.linear.ldl import factor_entries, factor_ldl
+from jaxkin.solve.linear.ldl import factor_ldl
 from jaxkin.solve.system.scatter import scatter_rows
 
 MAX_ALWAYS_UNROLLED_ROWS = 3
@@ -72,23 +72,6 @@ def solve_least_norm_refined(jacobian: Matrix, right: Vector, damping: Damping, 
     x = transposed(solve(right))
     x = x + transposed(solve(right - forward(x)))
     return _restore_columns(x, used, jacobian.shape[1])
-
-
-def factor_positive_definite(matrix: Float[Array, "n n poses"]) -> Callable[[Vector], Array]:
-    """Factorise positive definite matrices; returns the function that solves for right-hand sides (n, poses).
-
-    What it returns may be differentiated: a derivative solves the same system.
-    """
-    n = len(matrix)
-    factored = factor_entries(lambda i, j: matrix[i, j], n) if n <= MAX_UNROLLED_ROWS else factor_by_library(matrix)
-
-    def times(x: Vector) -> Array:
-        return jnp.sum(matrix * x[None], axis=1)
-
-    def solve(right: Vector) -> Array:
-        return lax.custom_linear_solve(times, right, lambda _, right: factored(right), symmetric=True)
-
-    return solve
 
 
 def _select_columns(jacobian: Matrix, used: Sequence[int]) -> Float[Array, "rows picked poses"]:

@@ -1,0 +1,60 @@
+"""Minimise quadratic functions subject to linear equations, at every pose: min z^T M z / 2 - a^T z, E z = b.
+
+With R M R^T = 1 the equations are those of v, z = R^T v, whose rows E R^T are made orthonormal: M is positive definite
+and well-conditioned, E need not be. Errors are rounding times the condition of E. Equations that depend on others may
+contradict them: then E z - b is least. With D the projector on the combinations of equations that vanish, z and the
+multipliers y satisfy
+
+    M z + E^T y = a,    E z - D y = b,
+
+which is symmetric and can be solved for every a and b, so that derivatives solve the same system: the elimination is
+never differentiated.
+"""
+
+from __future__ import annotations
+
+import jax.numpy as jnp
+from jax import lax
+from jaxtyping import Array, Float
+
+from jaxkin.solve.linear.gram import Matrix, Vector, row_products
+from jaxkin.solve.linear.inverse_root import inverse_root
+from jaxkin.solve.linear.orthonormal_rows import orthonormal_rows
+
+
+def minimise_constrained(matrix: Float[Array, "n n poses"], slope: Vector, equations: Matrix, right: Vector) -> Vector:
+    """Find z (n, poses) from M (n, n, poses), a (n, poses), E (equations, n, poses) and b (equations, poses)."""
+    root = inverse_root(lax.stop_gradient(matrix))
+    whitened = row_products(lax.stop_gradient(equations), root)
+    found = orthonormal_rows(whitened)
+
+    def vanishing(y: Vector) -> Vector:
+        """D y. Its derivative is that of the projector, which changes with E."""
+        least = column_sums(found.vanishing, row_sums(found.vanishing, y))
+        inside = row_sums(equations, column_sums(root, column_sums(found.rows, row_sums(found.made_by, y))))
+        inside = column_sums(found.vanishing, row_sums(found.vanishing, inside))
+        across = row_sums(root, column_sums(equations, least))
+        return least - inside - column_sums(found.made_by, row_sums(found.rows, across))
+
+    def system(given: tuple[Vector, Vector]) -> tuple[Vector, Vector]:
+        z, y = given
+        return row_sums(matrix, z) + column_sums(equations, y), row_sums(equations, z) - vanishing(y)
+
+    def solve(_: object, given: tuple[Vector, Vector]) -> tuple[Vector, Vector]:
+        a, b = given
+        free = row_sums(root, a)
+        missing = row_sums(found.made_by, row_sums(whitened, free) - b)
+        z = column_sums(root, free - column_sums(found.rows, missing))
+        return z, column_sums(found.made_by, missing) - column_sums(found.vanishing, row_sums(found.vanishing, b))
+
+    return lax.custom_linear_solve(system, (slope, right), solve, symmetric=True)[0]
+
+
+def row_sums(matrix: Float[Array, "rows columns poses"], vector: Vector) -> Vector:
+    """A x."""
+    return jnp.sum(matrix * vector[None], axis=1)
+
+
+def column_sums(matrix: Float[Array, "rows columns poses"], vector: Vector) -> Vector:
+    """A^T x."""
+    return jnp.sum(matrix * vector[:, None], axis=0)

@@ -1,0 +1,80 @@
+"""Constrained minima of quadratic functions, and what they are made of, against dense algebra in numpy."""
+
+import jax
+import numpy as np
+import pytest
+
+from jaxkin.solve.linear.constrained import minimise_constrained
+from jaxkin.solve.linear.inverse_root import inverse_root
+from jaxkin.solve.linear.orthonormal_rows import orthonormal_rows
+
+POSES = 3
+SHAPES = [(0, 6), (1, 1), (3, 6), (7, 6), (9, 18), (25, 30), (20, 12)]
+
+
+def _dependent(rng, rows, columns):
+    """Rows of which two depend on others where there are more than three; over seven decades in the last pose."""
+    matrix = rng.normal(size=(rows, columns, POSES))
+    if rows > 3:
+        matrix[2] = matrix[0] - 2 * matrix[1]
+        matrix[-1] = matrix[0] + matrix[-2]
+        matrix[:, :, -1] *= np.logspace(0, -7, rows)[:, None]
+    return matrix
+
+
+@pytest.mark.parametrize(("rows", "columns"), SHAPES)
+def test_orthonormal_rows_are_made_by_the_pseudoinverse(rows, columns):
+    """Tolerance: rounding times the condition, 1e7 in the last pose."""
+    matrix = _dependent(np.random.default_rng(rows), rows, columns)
+    found = [np.asarray(each) for each in jax.jit(orthonormal_rows)(matrix)]
+    for pose, allowed in zip(range(POSES), (1e-11, 1e-11, 1e-6), strict=True):
+        orthonormal, made_by, vanishing = (each[..., pose] for each in found)
+        own = matrix[..., pose]
+        rank = np.linalg.matrix_rank(own, tol=1e-9)
+        assert np.sum(np.any(orthonormal != 0, axis=1)) == rank
+        assert np.sum(np.any(vanishing != 0, axis=1)) == rows - rank
+        np.testing.assert_allclose(vanishing @ own, 0.0, atol=1e-11)
+        np.testing.assert_allclose(vanishing @ vanishing.T, np.diag(np.any(vanishing != 0, axis=1)), atol=1e-11)
+        inverse = np.linalg.pinv(own, rcond=1e-9)
+        np.testing.assert_allclose(orthonormal.T @ made_by, inverse, atol=allowed * np.abs(inverse).max(initial=0.0))
+
+
+@pytest.mark.parametrize("n", [1, 3, 4, 6, 17, 30])
+def test_inverse_roots_are_lower_and_make_the_matrix_one(n):
+    factor = np.random.default_rng(n).normal(size=(n, n, POSES))
+    matrix = np.einsum("ikp,jkp->ijp", factor, factor) + np.eye(n)[..., None]
+    root = np.asarray(inverse_root(matrix))
+    for pose in range(POSES):
+        own = root[..., pose]
+        np.testing.assert_array_equal(np.triu(own, 1), 0.0)
+        np.testing.assert_allclose(own @ matrix[..., pose] @ own.T, np.eye(n), atol=1e-12)
+
+
+@pytest.mark.parametrize(("rows", "columns"), SHAPES)
+def test_minima_and_their_derivatives(rows, columns):
+    """z = x + N u: x violates the equations least, and u minimises along their null space; derivatives by differences.
+
+    Tolerance: rounding times the condition, about 1e3 here, and the square of the step of the differences, 1e-5.
+    """
+    rng = np.random.default_rng(columns)
+    equations = _dependent(rng, rows, columns)[..., :1]
+    factor = rng.normal(size=(columns, columns, 1))
+    matrix = np.einsum("ikp,jkp->ijp", factor, factor) + np.eye(columns)[..., None]
+    slope, right = rng.normal(size=(columns, 1)), rng.normal(size=(rows, 1))
+
+    def direct(slope, equations, right):
+        e, m, a = equations[..., 0], matrix[..., 0], slope[:, 0]
+        x = np.linalg.pinv(e, rcond=1e-9) @ right[:, 0]
+        null = np.linalg.svd(e)[2][np.linalg.matrix_rank(e, tol=1e-9) :].T
+        return x + null @ np.linalg.solve(null.T @ m @ null, null.T @ (a - m @ x))
+
+    found = minimise_constrained(matrix, slope, equations, right)[:, 0]
+    expected = direct(slope, equations, right)
+    np.testing.assert_allclose(found, expected, atol=1e-9 * np.abs(expected).max())
+    # a change of the columns: dependent equations stay dependent
+    turn = 1e-1 * rng.normal(size=(columns, columns))
+    change = np.einsum("rcp,cd->rdp", equations, turn)
+    _, derivative = jax.jvp(lambda e: minimise_constrained(matrix, slope, e, right)[:, 0], (equations,), (change,))
+    one, other = (direct(slope, equations + step * change, right) for step in (1e-5, -1e-5))
+    difference = (one - other) / 2e-5
+    np.testing.assert_allclose(derivative, difference, atol=1e-5 * np.abs(difference).max())
