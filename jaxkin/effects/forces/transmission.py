@@ -39,8 +39,7 @@ class Transmission:
     """Force of the output over that of the input, newtons or newton metres; infinite where the output rests."""
     angle: Float[Array, " poses"]
     """Transmission angle, radians, 0 to pi/2: the complement of the angle between the force on the output part and the
-    velocity of its point relative to the other part of the output joint. In a four-bar it is the angle between coupler
-    and output link, the acute one."""
+    velocity of its point. In a four-bar it is the angle between coupler and output link, the acute one."""
 
     def __str__(self) -> str:
         angle = np.degrees(np.asarray(self.angle))
@@ -75,10 +74,9 @@ def transmission(motion: Motion, output: str, *, joint: str | None = None) -> Tr
     """Find how motion and force go from the one driven coordinate of a motion to another coordinate.
 
     `output` is "joint" or "joint.coordinate"; the part that moves there, part 2 of its joint unless that is fixed, is
-    the output part, and its motion is that relative to the other one. Without weight and friction, the advantage is the
-    inverse of the ratio of rates. The transmission angle is measured at `joint`, by default the one other joint of the
-    output part: there a load on the output puts a force on the part, and its angle from the velocity of the point says
-    how much of it moves the output.
+    the output part. Without weight and friction, the advantage is the inverse of the ratio of rates. The transmission
+    angle is measured at `joint`, by default the one other joint of the output part: there a load on the output puts a
+    force on the part, and its angle from the velocity of the point says how much of it moves the output.
 
     Works inside `jit`, `vmap` and `grad`. Raises ValueError for motions with several drives, an output that is driven,
     and where the joint must be named.
@@ -93,7 +91,7 @@ def transmission(motion: Motion, output: str, *, joint: str | None = None) -> Tr
     full = f"{own.name}.{own.coordinates[index]}"
     if full == name:
         raise ValueError(f"{full!r} is the input itself; name another coordinate")
-    base, part = own.parts[::-1] if own.parts[1] in mechanism.fixed else own.parts
+    part = own.parts[0] if own.parts[1] in mechanism.fixed else own.parts[1]
     others = [each.name for each in mechanism.all_joints if part in each.parts and each.name != own.name]
     if joint is not None and joint not in others:
         raise ValueError(f"the output part {part!r} has no other joint {joint!r}{nearest(joint, others)}")
@@ -109,14 +107,10 @@ def transmission(motion: Motion, output: str, *, joint: str | None = None) -> Tr
         # links lie side by side, and what that puts along their pins is shared by stiffness, and moves nothing
         normal = jnp.einsum("pij,j->pi", motion.transforms[part][:, :3, :3], normal)
         push = push - jnp.sum(push * normal, axis=1, keepdims=True) * normal
-
-    def velocity_of(name: str) -> Float[Array, "poses 3"]:
-        """Velocity of the point of a part that is at the joint now."""
-        place, change = motion.transforms[name], speeds.transforms[name]
-        point = jnp.einsum("pji,pj->pi", place[:, :3, :3], found.points[through] - place[:, :3, 3])
-        return jnp.einsum("pij,pj->pi", change[:, :3, :3], point) + change[:, :3, 3]
-
-    velocity = velocity_of(part) - velocity_of(base)
+    # the velocity of the output part at the joint: of the point of the part that is there now
+    place, change = motion.transforms[part], speeds.transforms[part]
+    point = jnp.einsum("pji,pj->pi", place[:, :3, :3], found.points[through] - place[:, :3, 3])
+    velocity = jnp.einsum("pij,pj->pi", change[:, :3, :3], point) + change[:, :3, 3]
     along = jnp.abs(jnp.sum(push * velocity, axis=1))
     size = jnp.sqrt(jnp.sum(push**2, axis=1) * jnp.sum(velocity**2, axis=1))
     sine = jnp.where(size > 0, along / jnp.where(size > 0, size, 1.0), 0.0)

@@ -33,15 +33,6 @@ def test_angle_between_coupler_and_rocker(tmp_path):
     )
 
 
-@pytest.mark.long
-def test_an_output_between_two_moving_parts():
-    """The coupler turns on the crank, pushed along the rocker: its point there moves across the coupler."""
-    found = jk.transmission(fourbar().sweep({"A": TURN}), "B")
-    at = fourbar_angles(1.0 + TURN)
-    assert (found.output, found.joint) == ("B.phi", "C")
-    np.testing.assert_allclose(np.sin(found.angle), np.abs(np.sin(at.rocker - at.coupler)), rtol=1e-8)
-
-
 def test_what_makes_no_sense_is_refused():
     motion = fourbar().sweep({"A": TURN})
     with pytest.raises(ValueError, match=r"'A.phi' is the input itself"):
