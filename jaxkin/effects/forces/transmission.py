@@ -15,12 +15,18 @@ from jaxkin._names import listed, nearest
 from jaxkin.effects.forces.drive import drive_forces
 from jaxkin.effects.forces.given import joint_load
 from jaxkin.effects.forces.reactions import reactions
+from jaxkin.effects.forces.screws import places, velocity_at
 from jaxkin.effects.forces.wrenches import nan_unless_closed
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.effects.rates import velocities
-from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.movements import MOVEMENTS, is_length
+from jaxkin.geometry.units import METRES
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.mechanism.motion import Motion
+
+PASSES = 1e-9
+"""Work of the force at the joint over that of the output, were they in one line, above which it is a force: where it
+moves the output, one and more."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,7 +45,8 @@ class Transmission:
     """Force of the output over that of the input, newtons or newton metres; infinite where the output rests."""
     angle: Float[Array, " poses"]
     """Transmission angle, radians, 0 to pi/2: the complement of the angle between the force on the output part and the
-    velocity of its point. In a four-bar it is the angle between coupler and output link, the acute one."""
+    velocity of its point, relative to the other part of the output joint. In a four-bar it is the angle between coupler
+    and output link, the acute one. NaN where no force goes through the joint."""
 
     def __str__(self) -> str:
         angle = np.degrees(np.asarray(self.angle))
@@ -76,7 +83,8 @@ def transmission(motion: Motion, output: str, *, joint: str | None = None) -> Tr
     `output` is "joint" or "joint.coordinate"; the part that moves there, part 2 of its joint unless that is fixed, is
     the output part. Without weight and friction, the advantage is the inverse of the ratio of rates. The transmission
     angle is measured at `joint`, by default the one other joint of the output part: there a load on the output puts a
-    force on the part, and its angle from the velocity of the point says how much of it moves the output.
+    force on the part, and its angle from the velocity that the output gives the point says how much of it moves the
+    output.
 
     Works inside `jit`, `vmap` and `grad`. Raises ValueError for motions with several drives, an output that is driven,
     and where the joint must be named.
@@ -107,15 +115,18 @@ def transmission(motion: Motion, output: str, *, joint: str | None = None) -> Tr
         # links lie side by side, and what that puts along their pins is shared by stiffness, and moves nothing
         normal = jnp.einsum("pij,j->pi", motion.transforms[part][:, :3, :3], normal)
         push = push - jnp.sum(push * normal, axis=1, keepdims=True) * normal
-    # the velocity of the output part at the joint: of the point of the part that is there now
-    place, change = motion.transforms[part], speeds.transforms[part]
-    point = jnp.einsum("pji,pj->pi", place[:, :3, :3], found.points[through] - place[:, :3, 3])
-    velocity = jnp.einsum("pij,pj->pi", change[:, :3, :3], point) + change[:, :3, 3]
+    # the velocity of the point of the output part that is there now, relative to the other part of the output joint: by
+    # the output alone, which has a direction also where the output rests
+    at = places(mechanism.linkage, motion.displacements, chords=True)
+    turn = at.joints[number].coordinates(own)[index]
+    velocity = velocity_at(turn, at.scale.arm(found.points[through].T)).T
+    velocity = velocity * (1.0 if is_length(own.coordinates[index]) else at.scale.size * METRES[mechanism.unit])
     along = jnp.abs(jnp.sum(push * velocity, axis=1))
-    size = jnp.sqrt(jnp.sum(push**2, axis=1) * jnp.sum(velocity**2, axis=1))
-    sine = jnp.where(size > 0, along / jnp.where(size > 0, size, 1.0), 0.0)
+    square = jnp.sum(push**2, axis=1) * jnp.sum(velocity**2, axis=1)
+    passes = motion.closed & (square > PASSES**2)
+    sine = along / jnp.sqrt(jnp.where(passes, square, 1.0))
     ratio = nan_unless_closed(motion, speeds.displacements[number][:, index])
-    angle = jnp.where(motion.closed, jnp.arcsin(jnp.minimum(sine, 1.0)), jnp.nan)
+    angle = jnp.where(passes, jnp.arcsin(jnp.minimum(sine, 1.0)), jnp.nan)
     return Transmission(name, full, through, ratio, -1.0 / force, angle)
 
 

@@ -33,6 +33,37 @@ def test_angle_between_coupler_and_rocker(tmp_path):
     )
 
 
+@pytest.mark.long
+def test_outputs_between_two_moving_parts():
+    """Seen from the crank, the coupler is turned by the rocker, which has two hinges and no drive: the same angle.
+
+    Seen from the coupler, the rocker is turned by the ground through D: there its velocity is across the line C D.
+    """
+    motion = fourbar().sweep({"A": TURN})
+    at = fourbar_angles(1.0 + TURN)
+    found = jk.transmission(motion, "B")
+    assert found.joint == "C"
+    np.testing.assert_allclose(np.sin(found.angle), np.abs(np.sin(at.rocker - at.coupler)), rtol=1e-8)
+    through = jk.transmission(motion, "C")
+    assert through.joint == "D"
+    push = jk.reactions(motion, applied=jk.joint_load("C", 1.0)).forces["D"][:, :2]
+    line = np.stack([np.cos(at.rocker), np.sin(at.rocker)], axis=1)
+    expected = np.abs(push[:, 0] * line[:, 1] - push[:, 1] * line[:, 0]) / np.linalg.norm(push, axis=1)
+    np.testing.assert_allclose(np.sin(through.angle), expected, rtol=1e-8)
+
+
+@pytest.mark.long
+def test_the_angle_where_the_output_rests():
+    """Crank and coupler in line: the rocker turns back, and its angle to the coupler is that of the triangle."""
+    mechanism = fourbar()
+    side, ground, rocker = 40.0 + 120.0, 100.0, 80.0
+    rest = np.arccos((side**2 + ground**2 - rocker**2) / (2 * side * ground))
+    found = jk.transmission(mechanism.sweep({"A": np.array([rest - 1.0])}), "D")
+    angle = np.arccos((side**2 + rocker**2 - ground**2) / (2 * side * rocker))
+    np.testing.assert_allclose(found.ratio, 0.0, atol=1e-10)
+    np.testing.assert_allclose(found.angle, min(angle, np.pi - angle), rtol=1e-7)
+
+
 def test_what_makes_no_sense_is_refused():
     motion = fourbar().sweep({"A": TURN})
     with pytest.raises(ValueError, match=r"'A.phi' is the input itself"):
