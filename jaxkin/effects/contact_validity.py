@@ -93,7 +93,10 @@ class ContactValidity:
         lost = np.flatnonzero(self.lost.any(axis=1)).tolist()
         title = "contacts that are lost" if lost else "no contact is lost"
         label = f"gap between the faces ({self.unit})" if self.unit else "gap between the faces"
-        return draw_lines([self._named(number) for number in lost], self.gaps[lost], label, title, Path(path))
+        names, rows = [self._named(number) for number in lost], self.gaps[lost]
+        if not lost and len(self.gaps):
+            names, rows = ["all contacts"], self.gaps.max(axis=0, keepdims=True)
+        return draw_lines(names, rows, label, title, Path(path))
 
     def save(self, path: str | Path) -> Path:
         """Write the gaps as comma-separated values, a row a pose and a column a contact; returns the path."""

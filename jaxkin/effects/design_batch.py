@@ -59,7 +59,7 @@ class Measured:
         if offsets:
             mechanism = mechanism.with_linkage(with_pins_moved(mechanism.linkage, offsets))
         if not self.driven:
-            return _one_number(self.measure(mechanism)), jnp.asarray(True)
+            return self._measured(mechanism), jnp.asarray(True)
         drive = dict(zip(self.driven, driven, strict=True))
         found: Pose | Motion
         if self.one_pose:
@@ -68,7 +68,17 @@ class Measured:
         else:
             found = mechanism.sweep(drive, options=self.options)
             reached = found.on_branch
-        return _one_number(self.measure(found)), jnp.all(reached)
+        return self._measured(found), jnp.all(reached)
+
+    def _measured(self, of: Pose | Motion | Mechanism) -> Float[Array, ""]:
+        """Call the measure; ValueError where it asks for numbers that JAX traces, as numpy does."""
+        try:
+            return _one_number(self.measure(of))
+        except (jax.errors.TracerArrayConversionError, jax.errors.ConcretizationTypeError) as error:
+            raise ValueError(
+                "the measure is differentiated by JAX: write it with jax.numpy in place of numpy, math, float(...) and "
+                "conditions on values"
+            ) from error
 
 
 def _one_number(value: Any) -> Float[Array, ""]:

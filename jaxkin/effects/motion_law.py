@@ -21,6 +21,8 @@ from jaxtyping import Array, Float
 from jaxkin._arguments import one_number, several
 from jaxkin._files import save_figure
 from jaxkin._names import closest
+from jaxkin._traced import traced
+from jaxkin.effects.pose_plot import save_rows
 from jaxkin.solve.execution.compiler import whole_program
 
 Law = Callable[[Array], Array]
@@ -185,6 +187,13 @@ class MotionLaw:
         axes[-1].set_xlabel("time")
         return save_figure(figure, target)
 
+    def save(self, path: str | Path, poses: int = 361) -> Path:
+        """Write times, displacements, velocities, accelerations and jerks as comma-separated values, evenly spaced in
+        time; returns the path."""
+        times = self.times(poses)
+        rows = [times, *(np.asarray(self(times, order)) for order in range(4))]
+        return save_rows(["time", "displacement", "velocity", "acceleration", "jerk"], np.stack(rows), Path(path))
+
 
 @partial(whole_program, static=(0, 1))
 def _evaluated(law: MotionLaw, order: int, times: Float[Array, "*times"]) -> Float[Array, "*times"]:
@@ -215,6 +224,11 @@ def motion_law(segments: Iterable[tuple[Any, ...]], start: float = 0.0) -> Motio
         if not isinstance(name, str) or name not in LAWS:
             known = ", ".join(map(repr, LAWS))
             raise ValueError(f"{where}: the law must be one of {known}, got {name!r}{closest(name, LAWS)}")
+        if traced(sizes):
+            raise ValueError(
+                f"{where}: its numbers are traced, and a law is part of the program that is compiled: make it of "
+                "rise 1 outside of jit, vmap and grad, and multiply what it returns"
+            )
         wanted = 1 if name == DWELL else 2
         if len(sizes) != wanted or not all(np.isscalar(x) and np.isfinite(x) for x in sizes):
             said = f"({name!r}, duration{'' if wanted == 1 else ', rise'})"

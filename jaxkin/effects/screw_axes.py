@@ -22,7 +22,7 @@ class ScrewAxes:
     moving: Float[Array, "poses 3"]
     """The same point, where it is on the part in the assembled pose: in the plane the moving centrode."""
     pitch: Float[Array, " poses"]
-    """Advance along the axis per radian, in the unit of the mechanism."""
+    """Advance along the axis per radian, in the unit of the mechanism; the `pitch` of `jk.screw` is per turn."""
 
 
 jax.tree_util.register_dataclass(ScrewAxes, data_fields=["direction", "point", "moving", "pitch"], meta_fields=[])

@@ -85,9 +85,17 @@ def test_what_jumps_has_an_infinite_derivative(segments, infinite, x64):
         assert ("infinite" in str(law)) == any(infinite)
 
 
-def test_a_law_is_drawn(tmp_path):
-    path = jk.motion_law([("cycloidal", 1.0, 1.0), ("dwell", 0.5)]).plot(tmp_path / "law.png")
-    assert path.stat().st_size > 10_000
+def test_a_law_is_drawn_and_saved(tmp_path):
+    law = jk.motion_law([("cycloidal", 1.0, 1.0), ("dwell", 0.5)])
+    assert law.plot(tmp_path / "law.png").stat().st_size > 10_000
+    table = np.genfromtxt(law.save(tmp_path / "law.csv", poses=7), delimiter=",", names=True)
+    for order, name in enumerate(("displacement", "velocity", "acceleration", "jerk")):
+        np.testing.assert_allclose(table[name], law(table["time"], order), atol=1e-6)  # nine digits are written
+
+
+def test_traced_numbers_of_a_law_are_refused():
+    with pytest.raises(ValueError, match=r"segment 1: its numbers are traced.*multiply what it returns"):
+        jax.grad(lambda rise: jk.motion_law([("cycloidal", 1.0, rise)])(0.3))(1.0)
 
 
 @pytest.mark.long

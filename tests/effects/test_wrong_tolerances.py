@@ -1,5 +1,6 @@
 """What `jk.tolerances` refuses: each in a line that says what arrived, and what to write instead."""
 
+import numpy as np
 import pytest
 
 import jaxkin as jk
@@ -32,6 +33,8 @@ def rocker(pose):
         ({COUPLER: 0.1}, {"drive": {"A": 3.0}}, "does not close for this drive"),
         ({COUPLER: 0.1}, {"measure": lambda pose: pose.coordinates["D"]}, r"one number, .* an array of shape \(1,\)"),
         ({COUPLER: 0.1}, {"measure": "D"}, "must be a function of the pose"),
+        ({COUPLER: 0.1}, {"measure": lambda pose: np.max(np.asarray(pose.coordinates["D"]))}, "jax.numpy in place of"),
+        ({COUPLER: 0.1}, {"measure": lambda pose: float(rocker(pose))}, "jax.numpy in place of"),
         ({COUPLER: 0.1}, {"samples": -1}, "samples must be a whole number"),
     ],
 )

@@ -126,7 +126,8 @@ def spring(
     """Put a spring with a damper between points of two parts, where they are in the assembled pose.
 
     It pulls with stiffness (distance - length) + damping times the rate of the distance: newtons per metre, the unit of
-    the mechanism, newton seconds per metre.
+    the mechanism, newton seconds per metre. Where the points meet, a spring has no direction and no force, midway
+    between those beside, and a damper that of the velocity, as beside.
     """
     what = f"the spring of {text(part1, 'a part of a spring')!r} and {text(part2, 'a part of a spring')!r}"
     xp = jax.numpy if traced(point1, point2) else np

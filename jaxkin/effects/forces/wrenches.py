@@ -37,6 +37,8 @@ Wrench = Float[Array, "6 _"]
 Load = Force | Torque | Spring | JointLoad
 
 STANDARD_GRAVITY = (0.0, 0.0, -9.81)
+MEETING = 0.6
+"""Power of rounding: the ends of a spring meet within this of the size, 4e-10 in float64, above what poses are off."""
 
 
 class Loads(NamedTuple):
@@ -237,8 +239,9 @@ def _of_spring(moving: Moving, load: Spring, lever: Any):
     ends = [moving.at.point(part, point) for part, point in zip(load.parts, load.points, strict=True)]
     apart = lever * (ends[1] - ends[0])
     square = jnp.sum(apart**2, axis=0)
-    distance = jnp.sqrt(jnp.where(square > 0, square, 1.0))  # no direction where the points meet, and no derivative
-    along = jnp.where(square > 0, 1.0, 0.0) * apart / distance
+    known = square > (float(jnp.finfo(square.dtype).eps) ** MEETING * lever) ** 2
+    distance = jnp.sqrt(jnp.where(known, square, 1.0))  # no direction where the points meet, and no derivative
+    along = jnp.where(known, 1.0, 0.0) * apart / distance
     length = _rows(load.length) * lever / moving.at.scale.size
     pull = _rows(load.stiffness) * (apart - length * along)
     if moving.twists:
@@ -246,7 +249,9 @@ def _of_spring(moving: Moving, load: Spring, lever: Any):
         one, other = (
             velocity_at(moving.twists.get(part, none), end) for part, end in zip(load.parts, ends, strict=True)
         )
-        pull = pull + _rows(load.damping) * lever * jnp.sum(along * (other - one), axis=0) * along
+        # points that meet come from the side to which they go: the limit of both sides
+        rate = jnp.where(known, jnp.sum(along * (other - one), axis=0) * along, other - one)
+        pull = pull + _rows(load.damping) * lever * rate
     yield load.parts[0], wrench_at(ends[0], pull)
     yield load.parts[1], wrench_at(ends[1], -pull)
 
