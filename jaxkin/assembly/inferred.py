@@ -89,8 +89,9 @@ def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said, tubes
     seats = [each.inference for each in tubes]
     mechanism, found, plainly = made(seats)
     inexact = len(found) > len(seats)
+    bearings = {each.part.name for each in assembly._measured.closed_bearings}
     for _ in range(_ROUNDS):
-        seats += (new := seats_of(mechanism, inexact, {each.part.name for each in assembly._measured.closed_bearings}))
+        seats += (new := seats_of(mechanism, inexact, bearings))
         if not new:
             break
         other, more, count = made(seats)
@@ -147,8 +148,8 @@ def _stopped(
             continue
         stops = [each for level in levels[:count] for each in level]
         names = {each.joint.name for each in stops if each.joint}  # they take the places of joints that slide
-        slides = [each for each in found if each.joint and each.joint.name in names]
-        more = _without_inner(assembly, said, [*(each for each in found if each not in slides), *stops])
+        rest = [each for each in found if not (each.joint and each.joint.name in names)]
+        more = _without_inner(assembly, said, [*rest, *stops])
         other = from_words(assembly, contacts, said, more)
         fewer, spins = useful_freedoms(other), other.mobility().spins
         if 0 < fewer < useful or (fewer == useful and fewer + spins > 0 and spins < turning):
