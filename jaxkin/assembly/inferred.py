@@ -109,16 +109,16 @@ def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said, tubes
         if useful_freedoms(other) and leaves_all_moving(mechanism, other, held):
             seats, mechanism, found = [*seats, *held], other, more
     moves = useful_freedoms(mechanism) or _has_free_slide(mechanism)
-    told = None
+    told = _counted(mechanism, found)
     if found and not moves:
-        told, dropped = _unlocked(assembly, contacts, said, found)
-        if told is not None and dropped is not None and dropped.joint is None:
+        unlocked, dropped = _unlocked(assembly, contacts, said, found)
+        told = unlocked or told
+        if dropped is not None and dropped.joint is None:
             # what is a body no longer may be a joint: a lever on a pin with play
             kept = [each for each in seats if each is not dropped]
             other, more, _ = made(kept, [frozenset((dropped.parts[0], part)) for part in dropped.parts[1:]])
             if 0 < useful_freedoms(other) < useful_freedoms(told):
                 told = _without(dropped, _counted(other, more))
-    told = told or _counted(mechanism, found)
     return replace(told, history=(*told_caps(told), *told.history))
 
 
