@@ -12,6 +12,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from jaxkin.geometry.movements import MOVEMENTS, is_length
+from jaxkin.geometry.trig import TURN
 from jaxkin.joints.coupling import Coupling
 from jaxkin.linkage.closure_equations import closure_residual
 from jaxkin.linkage.coordinates import coordinate
@@ -27,8 +28,6 @@ if TYPE_CHECKING:
 
 PENALTY = 100.0
 """Weight of squared closure residuals beside squared errors of targets, where steps are judged."""
-TURN = 2 * np.pi
-"""A whole turn."""
 
 
 class Problem:
