@@ -21,9 +21,8 @@ from typing import NamedTuple
 
 import jax.numpy as jnp
 from jax import lax
-from jaxtyping import Array, Bool, Float, Int
+from jaxtyping import Array, Bool, Float
 
-from jaxkin.solve.closure.closure import Geometry, closure
 from jaxkin.solve.continuation.determinant_sign import determinant_ratio
 from jaxkin.solve.continuation.fronts import (
     BEYOND_LIMIT,
@@ -34,7 +33,6 @@ from jaxkin.solve.continuation.fronts import (
     ContinuationProblem,
     Fronts,
     arrived,
-    assembled_fronts,
     stopped_at_limit,
 )
 from jaxkin.solve.continuation.input_slopes import input_slopes, slopes_of_branch
@@ -46,10 +44,8 @@ from jaxkin.solve.correctors.levenberg_marquardt import (
 )
 from jaxkin.solve.correctors.newton import newton
 from jaxkin.solve.lockstep import any_in_lockstep, computed_once
-from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import Status, classify, closes_before_limits, rounding_residual
 from jaxkin.solve.system.equation_blocks import equation_blocks
-from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, difference, drive, rate, retract
 
 LONGEST_STEP = 0.3
@@ -271,27 +267,3 @@ def _next_step(
     growth = jnp.clip(jnp.where(attempt.sloped, growth, 2.0), *GROWTH)
     step = jnp.where(good, jnp.minimum(growth * fronts.step, LONGEST_STEP), fronts.step)
     return jnp.where(attempt.following & ~good, REFUSED_FACTOR * jnp.abs(attempt.moved), step)
-
-
-def reach(
-    system: LoopSystem, geometry: Geometry, targets: Float[Array, "driven fronts"], options: SolverOptions
-) -> tuple[State, Int[Array, " fronts"], Float[Array, " fronts"]]:
-    """Move the inputs from the assembled pose to each target in a straight line, one front a target.
-
-    `targets` are inputs in radians and characteristic lengths. Returns the states, their statuses, and their residual
-    norms (square root of Eq. 12 over all twelve equations, lengths over the characteristic length), measured at these
-    states.
-    """
-    distance = jnp.max(jnp.abs(targets), axis=0, initial=0.0)
-    direction = targets / jnp.where(distance > 0, distance, 1.0)
-
-    def path(at: Float[Array, " fronts"]) -> tuple[Array, Array]:
-        return jnp.where(at == distance, targets, at * direction), direction
-
-    problem = ContinuationProblem(system, geometry, options, path)
-    fronts = lax.while_loop(
-        lambda fronts: any_in_lockstep(~arrived(fronts, distance)),
-        lambda fronts: substep(problem, fronts, distance),
-        assembled_fronts(system, targets.shape[-1], targets.dtype),
-    )
-    return fronts.state, fronts.status, closure(system, geometry, fronts.state).residual_norm

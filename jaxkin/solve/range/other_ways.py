@@ -18,9 +18,8 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from jaxkin.solve.closure.closure import closure
-from jaxkin.solve.continuation.fronts import ContinuationProblem, Fronts, arrived, assembled_fronts
-from jaxkin.solve.continuation.step import BEYOND_LIMIT_STEP, substep
+from jaxkin.solve.continuation.reach import reach
+from jaxkin.solve.continuation.step import BEYOND_LIMIT_STEP
 from jaxkin.solve.correctors.levenberg_marquardt import select_poses
 from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.device import group_for_device
@@ -33,9 +32,6 @@ WAYS = 16
 """Number of ways that are followed together on CPUs: beside one that meets a limit, more would wait for it."""
 CELL = BEYOND_LIMIT_STEP
 """Largest distance along the curve, radians or characteristic lengths, between two poses that are tried."""
-STAYS = 4 * BEYOND_LIMIT_STEP
-"""Distance, at the end of a way, over which inputs stay where they are while a pose is STALLED: four times the steps of
-the damped corrector, which has few for each step of the continuation."""
 
 
 class _Tried(NamedTuple):
@@ -96,7 +92,8 @@ def _follow(
         chosen = jnp.where(jnp.any(open_poses & first), open_poses & first, open_poses)
         which = jnp.argsort(~chosen)[:ways]
         chosen, begun = chosen[which], jax.tree.map(lambda array: array[..., which], now.poses)
-        other = _reach(problem, *(jnp.where(chosen, given[:, which], 0.0) for given in (inputs, bends)))
+        ends = (jnp.where(chosen, given[:, which], 0.0) for given in (inputs, bends))
+        other = Poses(*reach(problem, *ends))
         reached = chosen & (other.status == Status.CLOSED.value)
         better = reached | chosen & (begun.status == Status.STALLED.value)
         poses = select_poses(better, other, begun)
@@ -108,31 +105,6 @@ def _follow(
 
     nothing = jnp.zeros(poses, bool)
     return lax.while_loop(lambda now: any_in_lockstep(left(now)), step, _Tried(found, nothing, nothing)).poses
-
-
-def _reach(problem: ClosureProblem, targets: Float[Array, "driven ways"], bends: Float[Array, "driven ways"]) -> Poses:
-    """Move the inputs from the assembled pose to each target along the parabola with control point `bends`."""
-    system, options = problem.system, problem.options
-    distance = jnp.max(jnp.abs(bends), axis=0) + jnp.max(jnp.abs(targets - bends), axis=0)
-    whole = jnp.where(distance > 0, distance, 1.0)
-
-    def path(at: Float[Array, " ways"]) -> tuple[Array, Array]:
-        share = at / whole
-        inputs = 2 * share * (1 - share) * bends + share**2 * targets
-        direction = 2 * ((1 - 2 * share) * bends + share * targets) / whole
-        return jnp.where(at >= distance, targets, inputs), jnp.where(at > distance, 0.0, direction)
-
-    def end(fronts: Fronts) -> Float[Array, " ways"]:
-        stays = (fronts.status == Status.STALLED.value) & (fronts.at < distance + STAYS)
-        return jnp.where(fronts.at < distance, distance, jnp.where(stays, distance + STAYS, fronts.at))
-
-    along = ContinuationProblem(system, problem.geometry, options, path)
-    fronts = lax.while_loop(
-        lambda fronts: any_in_lockstep(~arrived(fronts, end(fronts))),
-        lambda fronts: substep(along, fronts, end(fronts)),
-        assembled_fronts(system, targets.shape[-1], targets.dtype),
-    )
-    return Poses(fronts.state, fronts.status, closure(system, problem.geometry, fronts.state).residual_norm)
 
 
 def _runs(found: Poses) -> Int[Array, " poses"]:

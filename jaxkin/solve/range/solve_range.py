@@ -22,7 +22,7 @@ from jaxkin.solve.continuation.branch import trace_branch
 from jaxkin.solve.continuation.branch_samples import BranchSamples, predict
 from jaxkin.solve.continuation.fronts import ContinuationProblem
 from jaxkin.solve.continuation.input_path import curve_through
-from jaxkin.solve.continuation.step import reach
+from jaxkin.solve.continuation.reach import reach
 from jaxkin.solve.correctors.chord_newton import CHORD_BATCH, chord_newton
 from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.device import on_cpu
@@ -140,7 +140,7 @@ def _found(system: LoopSystem, options: SolverOptions, asked: _Range) -> Poses:
         return _of_one_input(system, options, asked._replace(inputs=inputs))
     if system.driven:
         return _of_several_inputs(system, options, asked)
-    return Poses(*reach(system, geometry, inputs, options))
+    return Poses(*reach(ClosureProblem(system, geometry, options), inputs, inputs))
 
 
 def _of_one_input(system: LoopSystem, options: SolverOptions, asked: _Range) -> Poses:

@@ -1,0 +1,51 @@
+"""Move the inputs from the assembled pose to targets, each along a way of its own."""
+
+from __future__ import annotations
+
+import jax.numpy as jnp
+from jax import lax
+from jaxtyping import Array, Float, Int
+
+from jaxkin.solve.closure.closure import closure
+from jaxkin.solve.continuation.fronts import ContinuationProblem, Fronts, arrived, assembled_fronts
+from jaxkin.solve.continuation.step import BEYOND_LIMIT_STEP, substep
+from jaxkin.solve.correctors.problem import ClosureProblem
+from jaxkin.solve.lockstep import any_in_lockstep
+from jaxkin.solve.status import Status
+from jaxkin.solve.system.state import State
+
+STAYS = 4 * BEYOND_LIMIT_STEP
+"""Distance, at the end of a way, over which inputs stay where they are while a pose is STALLED: four times the steps of
+the damped corrector, which has few for each step of the continuation."""
+
+
+def reach(
+    problem: ClosureProblem, targets: Float[Array, "driven ways"], bends: Float[Array, "driven ways"]
+) -> tuple[State, Int[Array, " ways"], Float[Array, " ways"]]:
+    """Move the inputs from the assembled pose to each target along the parabola with control point `bends`.
+
+    The parabola is straight where `bends` is half the target. Inputs are in radians and characteristic lengths. Returns
+    the states, their statuses, and their residual norms (square root of Eq. 12 over all twelve equations, lengths over
+    the characteristic length), measured at these states.
+    """
+    system, options = problem.system, problem.options
+    distance = jnp.max(jnp.abs(bends), axis=0, initial=0.0) + jnp.max(jnp.abs(targets - bends), axis=0, initial=0.0)
+    whole = jnp.where(distance > 0, distance, 1.0)
+
+    def path(at: Float[Array, " ways"]) -> tuple[Array, Array]:
+        share = at / whole
+        inputs = 2 * share * (1 - share) * bends + share**2 * targets
+        direction = 2 * ((1 - 2 * share) * bends + share * targets) / whole
+        return jnp.where(at >= distance, targets, inputs), jnp.where(at > distance, 0.0, direction)
+
+    def end(fronts: Fronts) -> Float[Array, " ways"]:
+        stays = (fronts.status == Status.STALLED.value) & (fronts.at < distance + STAYS)
+        return jnp.where(fronts.at < distance, distance, jnp.where(stays, distance + STAYS, fronts.at))
+
+    along = ContinuationProblem(system, problem.geometry, options, path)
+    fronts = lax.while_loop(
+        lambda fronts: any_in_lockstep(~arrived(fronts, end(fronts))),
+        lambda fronts: substep(along, fronts, end(fronts)),
+        assembled_fronts(system, targets.shape[-1], targets.dtype),
+    )
+    return fronts.state, fronts.status, closure(system, problem.geometry, fronts.state).residual_norm
