@@ -13,6 +13,7 @@ from jaxkin.geometry.part import Part
 from jaxkin.geometry.surfaces import Cylinder
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
+from jaxkin.topology.bodies import body_of_parts
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
@@ -26,7 +27,7 @@ def told_caps(mechanism: Mechanism) -> list[str]:
     be pressed or glued on, which one line says.
     """
     solids = {part.name: part for part in mechanism.solids}
-    owner = {part: body for body, parts in mechanism.bodies.items() for part in parts}
+    owner = body_of_parts(mechanism.bodies)
     result = []
     for joint in mechanism.all_joints:
         found = _cap(joint, mechanism.contacts.get(joint.name, ()), solids)

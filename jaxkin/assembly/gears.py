@@ -21,6 +21,7 @@ from jaxkin.geometry.part import Part, size
 from jaxkin.geometry.pose import Points
 from jaxkin.geometry.teeth import Teeth, find_teeth
 from jaxkin.joints.coupling import Coupling, gear, relation
+from jaxkin.topology.bodies import body_of_parts
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
@@ -54,7 +55,7 @@ def gear_proposals(mechanism: Mechanism) -> tuple[GearProposal, ...]:
     that a full turn would have follow from their distance. Worm gears are not looked for. `print` of a proposal shows
     both numbers of teeth and the equation.
     """
-    body = {part: first for first, parts in mechanism.bodies.items() for part in parts}
+    body = body_of_parts(mechanism.bodies)
     turns = turns_of(mechanism, body)
     largest = size(mechanism.solids) if mechanism.solids else 0.0
     toothed = [part for part in mechanism.solids if turns.get(body.get(part.name, "")) and _has_flanks(part)]

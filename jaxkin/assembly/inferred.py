@@ -19,7 +19,7 @@ from jaxkin.assembly.to_mechanism import Said, from_words, told_by
 from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.joints.evidence import EvidenceKind
 from jaxkin.joints.kinds import JointKind
-from jaxkin.topology.bodies import bodies
+from jaxkin.topology.bodies import bodies, body_of_parts
 from jaxkin.topology.components import connected
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said) -> Mec
     by_hand = {*said.fixed, *(part for group in words for part in group)}
     tubes = springs(assembly._measured, contacts, said.fixed, by_hand)
     made = _inferred(assembly, contacts, said, tubes)
-    body = {part: owner for owner, parts in made.bodies.items() for part in parts}
+    body = body_of_parts(made.bodies)
     pushing = [each for each in tubes if body.get(each.seat, each.seat) != body.get(each.pushed, each.pushed)]
     return made if pushing == tubes else _inferred(assembly, contacts, said, pushing)
 

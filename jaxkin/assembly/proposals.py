@@ -12,6 +12,7 @@ import numpy as np
 from jaxkin.assembly.wheels import wheels_last, wheels_of
 from jaxkin.geometry.part import Part
 from jaxkin.mobility.open_loops import opening
+from jaxkin.topology.bodies import body_of_parts
 
 if TYPE_CHECKING:
     from jaxkin.assembly.assembly import Assembly
@@ -121,7 +122,7 @@ def _with_ends(mechanism: Mechanism, solids: Mapping[str, Part]) -> list[list[st
     drawn."""
     if not mechanism.fixed:
         return []
-    owner = {part: body for body, parts in mechanism.bodies.items() for part in parts}
+    owner = body_of_parts(mechanism.bodies)
     around: dict[str, set[str]] = {}
     for one, other in ([owner[part] for part in joint.parts] for joint in mechanism.all_joints if joint.freedoms):
         around.setdefault(one, set()).add(other)
@@ -137,7 +138,7 @@ def _with_ends(mechanism: Mechanism, solids: Mapping[str, Part]) -> list[list[st
 
 def _likely(mechanism: Mechanism, solids: Mapping[str, Part]) -> list[str]:
     """Find the largest part of each body, those of large and well connected bodies first."""
-    owner = {part: body for body, parts in mechanism.bodies.items() for part in parts}
+    owner = body_of_parts(mechanism.bodies)
     joined = Counter(owner[part] for joint in mechanism.all_joints if joint.freedoms for part in joint.parts)
     largest = {body: max(parts, key=lambda part: _extent(solids[part])) for body, parts in mechanism.bodies.items()}
     order = sorted(largest, key=lambda body: joined[body] * _extent(solids[largest[body]]), reverse=True)

@@ -12,6 +12,7 @@ from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.mobility.loop_freedoms import loop_freedoms
 from jaxkin.mobility.mobility import moving_columns, names
+from jaxkin.topology.bodies import body_of_parts
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
@@ -21,7 +22,7 @@ def resting(mechanism: Mechanism) -> list[Inference]:
     """Find the bodies that faces hold to another one in one direction only: they lie there, and nothing that is drawn
     keeps them in their place; but for those that slide in a third one on which the other one turns."""
     found = []
-    owner = {part: body for body, parts in mechanism.bodies.items() for part in parts}
+    owner = body_of_parts(mechanism.bodies)
     for joint in mechanism.all_joints:
         lies = joint.kind is JointKind.PLANAR and joint.name in mechanism.contacts
         if lies and not locks_slide(mechanism, joint, owner):
@@ -37,7 +38,7 @@ def leaves_all_moving(
     """Tell whether all bodies that move on each other by a joint still do so in another mechanism, in the same
     coordinates, but for those that are held to each other there; with `but_slides` also but for slides of bodies that
     still turn on each other. Those that are one body then had nothing but empty bores in common."""
-    owner = {part: body for body, parts in other.bodies.items() for part in parts}
+    owner = body_of_parts(other.bodies)
     gone = {frozenset(each.parts) for each in held}
 
     def seen(found: Mechanism, wanted: Callable[[Joint], bool]) -> set[tuple[frozenset[str], str]]:

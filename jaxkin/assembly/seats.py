@@ -16,6 +16,7 @@ from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.mobility.open_loops import opening
+from jaxkin.topology.bodies import body_of_parts
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
@@ -42,7 +43,7 @@ def seats_of(mechanism: Mechanism, inexact: bool, bearings: Collection[str]) -> 
     if not useful_freedoms(mechanism):
         return []
     idle = {*mechanism.mobility().idle}
-    owner = {part: body for body, parts in mechanism.bodies.items() for part in parts}
+    owner = body_of_parts(mechanism.bodies)
     useful = [joint.parts for joint in mechanism.all_joints if {f"{joint.name}.{c}" for c in joint.coordinates} - idle]
     result = []
     for joint in mechanism.all_joints:

@@ -20,6 +20,7 @@ from jaxkin.contacts.contact import counted
 from jaxkin.contacts.reason import advises_tolerance
 from jaxkin.geometry.movements import is_length
 from jaxkin.joints.evidence import EvidenceKind
+from jaxkin.topology.bodies import body_of_parts
 
 if TYPE_CHECKING:
     from jaxkin.assembly.assembly import Assembly
@@ -76,7 +77,7 @@ def print_near_misses(contacts: Contacts, mechanism: Mechanism | None, verbose: 
 
 def _not_accounted_for(every: Iterable[NearMiss], mechanism: Mechanism) -> list[NearMiss]:
     """Keep the near misses of two bodies that no joint ties, or joints of contacts alone."""
-    body = {part: name for name, parts in mechanism.bodies.items() for part in parts}
+    body = body_of_parts(mechanism.bodies)
     tied = {
         frozenset(body[part] for part in joint.parts)
         for joint in mechanism.all_joints

@@ -41,3 +41,8 @@ def members(body_of: Mapping[str, str]) -> dict[str, tuple[str, ...]]:
     for part, body in body_of.items():
         found[body] = (*found.get(body, ()), part)
     return found
+
+
+def body_of_parts(found: Mapping[str, Sequence[str]]) -> dict[str, str]:
+    """Map each part to its body, from the parts of each body: the inverse of `members`."""
+    return {part: body for body, parts in found.items() for part in parts}
