@@ -1,6 +1,7 @@
 """Constrained minima of quadratic functions, and what they are made of, against dense algebra in numpy."""
 
 import jax
+import jax.numpy as jnp
 import numpy as np
 import pytest
 
@@ -43,7 +44,7 @@ def test_orthonormal_rows_are_made_by_the_pseudoinverse(rows, columns):
 def test_inverse_roots_are_lower_and_make_the_matrix_one(n):
     factor = np.random.default_rng(n).normal(size=(n, n, POSES))
     matrix = np.einsum("ikp,jkp->ijp", factor, factor) + np.eye(n)[..., None]
-    root = np.asarray(inverse_root(matrix))
+    root = np.asarray(inverse_root(jnp.asarray(matrix)))
     for pose in range(POSES):
         own = root[..., pose]
         np.testing.assert_array_equal(np.triu(own, 1), 0.0)
@@ -68,13 +69,17 @@ def test_minima_and_their_derivatives(rows, columns):
         null = np.linalg.svd(e)[2][np.linalg.matrix_rank(e, tol=1e-9) :].T
         return x + null @ np.linalg.solve(null.T @ m @ null, null.T @ (a - m @ x))
 
-    found = minimise_constrained(matrix, slope, equations, right)[:, 0]
+    given = [jnp.asarray(each) for each in (matrix, slope, equations, right)]
+    found = minimise_constrained(*given)[:, 0]
     expected = direct(slope, equations, right)
     np.testing.assert_allclose(found, expected, atol=1e-9 * np.abs(expected).max())
     # a change of the columns: dependent equations stay dependent
     turn = 1e-1 * rng.normal(size=(columns, columns))
     change = np.einsum("rcp,cd->rdp", equations, turn)
-    _, derivative = jax.jvp(lambda e: minimise_constrained(matrix, slope, e, right)[:, 0], (equations,), (change,))
+    weights, linear, given_equations, constants = given
+    _, derivative = jax.jvp(
+        lambda e: minimise_constrained(weights, linear, e, constants)[:, 0], (given_equations,), (jnp.asarray(change),)
+    )
     one, other = (direct(slope, equations + step * change, right) for step in (1e-5, -1e-5))
     difference = (one - other) / 2e-5
     np.testing.assert_allclose(derivative, difference, atol=1e-5 * np.abs(difference).max())

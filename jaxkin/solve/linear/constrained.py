@@ -21,8 +21,16 @@ from jaxkin.solve.linear.gram import Matrix, Vector, row_products
 from jaxkin.solve.linear.inverse_root import inverse_root
 from jaxkin.solve.linear.orthonormal_rows import orthonormal_rows
 
+Unknowns = tuple[Float[Array, "n poses"], Float[Array, "equations poses"]]
+"""z and y, or the right-hand sides a and b of their equations."""
 
-def minimise_constrained(matrix: Float[Array, "n n poses"], slope: Vector, equations: Matrix, right: Vector) -> Vector:
+
+def minimise_constrained(
+    matrix: Float[Array, "n n poses"],
+    slope: Float[Array, "n poses"],
+    equations: Float[Array, "equations n poses"],
+    right: Float[Array, "equations poses"],
+) -> Float[Array, "n poses"]:
     """Find z (n, poses) from M (n, n, poses), a (n, poses), E (equations, n, poses) and b (equations, poses)."""
     root = inverse_root(lax.stop_gradient(matrix))
     whitened = row_products(lax.stop_gradient(equations), root)
@@ -36,11 +44,11 @@ def minimise_constrained(matrix: Float[Array, "n n poses"], slope: Vector, equat
         across = row_sums(root, column_sums(equations, least))
         return least - inside - column_sums(found.made_by, row_sums(found.rows, across))
 
-    def system(given: tuple[Vector, Vector]) -> tuple[Vector, Vector]:
+    def system(given: Unknowns) -> Unknowns:
         z, y = given
         return row_sums(matrix, z) + column_sums(equations, y), row_sums(equations, z) - vanishing(y)
 
-    def solve(_: object, given: tuple[Vector, Vector]) -> tuple[Vector, Vector]:
+    def solve(_: object, given: Unknowns) -> Unknowns:
         a, b = given
         free = row_sums(root, a)
         missing = row_sums(found.made_by, row_sums(whitened, free) - b)
@@ -50,11 +58,11 @@ def minimise_constrained(matrix: Float[Array, "n n poses"], slope: Vector, equat
     return lax.custom_linear_solve(system, (slope, right), solve, symmetric=True)[0]
 
 
-def row_sums(matrix: Float[Array, "rows columns poses"], vector: Vector) -> Vector:
+def row_sums(matrix: Matrix, vector: Float[Array, "columns poses"]) -> Vector:
     """A x."""
     return jnp.sum(matrix * vector[None], axis=1)
 
 
-def column_sums(matrix: Float[Array, "rows columns poses"], vector: Vector) -> Vector:
+def column_sums(matrix: Matrix, vector: Vector) -> Float[Array, "columns poses"]:
     """A^T x."""
     return jnp.sum(matrix * vector[:, None], axis=0)
