@@ -11,6 +11,7 @@ travels over a surface, and `I`, the identity, are not in the paper.
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple
 
@@ -77,9 +78,6 @@ class Movement:
     "direction", the direction of z; "centre", the origin."""
     figures: tuple[tuple[Figure, ...], tuple[Figure, ...]] = ((), ())
     """The solids drawn for part 1 (bearing, rail, plate) and for part 2 (pin, slider, puck, ball)."""
-    without_normal: str | None = None
-    """Key of the movement that remains in a planar loop with normal z, in which nothing moves along z; None for
-    movements without translation along z."""
     lock: AngleLock | None = None
     """The gimbal lock of this movement and the next one in a chain; None where there is none."""
 
@@ -146,7 +144,6 @@ MOVEMENTS: dict[str, Movement] = {
         feature=InvariantFeature("axis"),
         aligned=frozenset({"direction"}),
         figures=((ROD,), (BoxFigure((3.6, 3.6, 6.0)),)),
-        without_normal="I",
     ),
     "T_phi": Movement(
         coordinates=("phi",),
@@ -174,7 +171,6 @@ MOVEMENTS: dict[str, Movement] = {
         surface="cylinder",
         aligned=frozenset({"axis", "direction"}),
         figures=((ROD,), (CylinderFigure(2, 1.6, 6.0),)),
-        without_normal="T_phi",
     ),
     "T_xy_phi": Movement(
         coordinates=("x", "y", "phi"),
@@ -244,6 +240,22 @@ MOVEMENTS: dict[str, Movement] = {
 }
 """All movements by their keys, with which joints (`jaxkin.joints.pairs`) and contact states
 (`jaxkin.contacts.states`) name the movements of their chains."""
+
+
+def remaining(name: str, kept: Collection[int]) -> str | None:
+    """Look up the key of the movement that is left of a movement in which all but the coordinates `kept` rest.
+
+    None where no movement has just these elementary motions.
+    """
+    if len(kept) == len(MOVEMENTS[name].coordinates):
+        return name
+    numbers = {coordinate: number for number, coordinate in enumerate(sorted(kept))}
+    left = tuple(
+        replace(element, coordinate=numbers[element.coordinate])
+        for element in MOVEMENTS[name].elements
+        if element.coordinate in numbers
+    )
+    return next((other for other, movement in MOVEMENTS.items() if movement.elements == left), None)
 
 
 def symmetry_of(surface: str) -> str:

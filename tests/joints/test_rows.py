@@ -93,7 +93,6 @@ def test_a_movement_added_as_a_row_is_swept_measured_and_drawn(monkeypatch):
         coordinates=("x",),
         elements=(replace(slide.elements[0], axis=0),),
         feature=slide.feature._replace(axis=0) if slide.feature else None,
-        without_normal=None,
     )
     monkeypatch.setitem(MOVEMENTS, "T_x", across)
     z = np.array([0.0, 0.0, 1.0])
