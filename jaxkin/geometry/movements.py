@@ -5,13 +5,13 @@ A movement displaces a local frame. Its coordinates x, y, z are translations alo
 rotation about z, as the paper prints it. Each movement is one row of `MOVEMENTS`, the only table that is keyed by
 movements. A row holds the movement as a product of elementary motions, from which displacements, screws and
 closure equations follow, and all else that depends on the movement. `T_screw`, the helical pair,
-`T_theta_phi_theta`, the constant velocity joint, `T_s` and `T_s_back`, which travel along a curve, `T_uv`, which
-travels over a surface, and `I`, the identity, are not in the paper.
+`T_theta_phi_theta`, the constant velocity joint, `T_theta` and `T_phi_y`, turns about x and y alone, `T_s` and
+`T_s_back`, which travel along a curve, `T_uv`, which travels over a surface, and `I`, the identity, are not in the
+paper.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple
 
@@ -154,6 +154,8 @@ MOVEMENTS: dict[str, Movement] = {
         aligned=frozenset({"axis", "direction"}),
         figures=((CylinderFigure(2, 2.0, 2.4),), (CylinderFigure(2, 1.2, 4.4),)),
     ),
+    "T_theta": Movement(coordinates=("theta",), elements=(_rotate(0, 0),)),  # of a ball or a cross, in a plane
+    "T_phi_y": Movement(coordinates=("phi",), elements=(_rotate(1, 0),)),  # the same about y
     "T_screw": Movement(
         coordinates=("phi",),
         elements=(ElementaryMotion("screw", 2, 0),),
@@ -240,22 +242,6 @@ MOVEMENTS: dict[str, Movement] = {
 }
 """All movements by their keys, with which joints (`jaxkin.joints.pairs`) and contact states
 (`jaxkin.contacts.states`) name the movements of their chains."""
-
-
-def remaining(name: str, kept: Collection[int]) -> str | None:
-    """Look up the key of the movement that is left of a movement in which all but the coordinates `kept` rest.
-
-    None where no movement has just these elementary motions.
-    """
-    if len(kept) == len(MOVEMENTS[name].coordinates):
-        return name
-    numbers = {coordinate: number for number, coordinate in enumerate(sorted(kept))}
-    left = tuple(
-        replace(element, coordinate=numbers[element.coordinate])
-        for element in MOVEMENTS[name].elements
-        if element.coordinate in numbers
-    )
-    return next((other for other, movement in MOVEMENTS.items() if movement.elements == left), None)
 
 
 def symmetry_of(surface: str) -> str:

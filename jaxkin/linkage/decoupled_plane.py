@@ -21,7 +21,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from jaxkin._traced import traced
-from jaxkin.geometry.movements import MOVEMENTS, remaining
+from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.partial_movement import remaining
 from jaxkin.geometry.pose import frame, inverse
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.screws import DEPENDENT, chain
@@ -34,10 +35,11 @@ def decoupled_plane(joints: Sequence[Joint], loops: Sequence[Circuit]) -> tuple[
     """Find the columns of the coordinates that act in the plane while all others rest; None where there is no plane.
 
     Columns are numbered from 0 through all coordinates of `joints`; `loops` are (number in `joints`, sign). The normal
-    is the direction about which most joints turn, of those for which the others rest. As in `planes.plane_columns`,
-    frames of a joint on its two parts must not differ along the normal.
+    is the direction about which most joints turn, of those for which the others rest. Of a ball, one axis of the frames
+    must be normal to the plane. As in `planes.plane_columns`, frames of a joint on its two parts must not differ along
+    the normal.
     """
-    if traced(joints) or (axes := elementary_axes(joints)) is None:
+    if not loops or traced(joints) or (axes := elementary_axes(joints, of_balls=True)) is None:
         return None
     for normal in _directions(axes[0]):
         inside = _inside(axes, normal)

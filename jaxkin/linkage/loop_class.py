@@ -54,7 +54,7 @@ def loop_classes(joints: Sequence[Joint], structure: Structure) -> tuple[LoopCla
         spherical = tuple(number for number, chain in enumerate(chains) if turn_about_one_point(chain))
         plane = plane_columns(inside)
         place = {joint: number for number, joint in enumerate(loop_group.joints)}
-        loops = [tuple((place[joint], sign) for joint, sign in loop) for loop in loop_group.loops]
+        loops = [tuple(step._replace(joint=place[step.joint]) for step in loop) for loop in loop_group.loops]
         decoupled = None if plane is not None else decoupled_plane(inside, loops)
         found.append(LoopClass(plane, decoupled, idle_spins(inside, bodies), schoenflies, spherical, True))
     return tuple(found)

@@ -97,9 +97,12 @@ Axes = list[tuple[int, np.ndarray, np.ndarray]]
 """(column of a coordinate, direction of its axis on part 1, direction on part 2), both unit vectors in the world."""
 
 
-def elementary_axes(joints: Sequence[Joint]) -> tuple[Axes, Axes] | None:
-    """List the axes of rotations and the axes of translations; None where a joint is a ball or a
-    screw, or follows a curve or a surface, where its axes are no straight lines."""
+def elementary_axes(joints: Sequence[Joint], *, of_balls: bool = False) -> tuple[Axes, Axes] | None:
+    """List the axes of rotations and the axes of translations in the assembled pose.
+
+    None where a joint is a screw, or follows a curve or a surface, where its axes are no straight lines; and where it
+    is a ball, unless its three axes count as those `of_balls`.
+    """
     turning: Axes = []
     sliding: Axes = []
     column = 0
@@ -107,7 +110,7 @@ def elementary_axes(joints: Sequence[Joint]) -> tuple[Axes, Axes] | None:
         sides = np.asarray(joint.frames_1, float), np.asarray(joint.frames_2, float)
         for frame, name in enumerate(joint.movements):
             movement = MOVEMENTS[name]
-            if movement.ball or movement.has_pitch or movement.follows:
+            if movement.has_pitch or movement.follows or (movement.ball and not of_balls):
                 return None
             for element in movement.elements:
                 first, second = (side[frame][:3, element.axis] for side in sides)

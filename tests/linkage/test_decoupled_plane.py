@@ -81,6 +81,31 @@ def test_rods_that_turn_idly_rest_where_they_are_in_one_line():
         np.testing.assert_allclose(one, other, atol=1e-12)
 
 
+@pytest.mark.parametrize("normal", range(3))
+def test_balls_and_crosses_turn_in_the_plane_like_hinges(normal):
+    """A boom, a tube on a cross and a rod on a ball, with the hinge of the boom along x, y or z."""
+    turned = np.roll(np.eye(3), normal + 1, axis=0)  # carries z to the axis of that number
+
+    def at(*point):
+        return turned @ np.array(point, float)
+
+    joints = [
+        jk.revolute("boom", "ground", "boom", point=at(0, 0, 0), axis=at(0, 0, 1)),
+        jk.universal("foot", "ground", "tube", point=at(3, -4, 0), axis1=at(0, 0, 1), axis2=unit(at(4, -1, 0))),
+        jk.cylindrical("cylinder", "tube", "rod", point=at(3, -4, 0), axis=at(1, 4, 0)),
+        jk.spherical("eye", "rod", "boom", point=at(4, 0, 0)),
+    ]
+    mechanism = jk.Mechanism.build(joints=joints, fixed=["ground"])
+    about = ("theta", "phi", "psi")[normal]
+    assert in_plane(mechanism) == {"boom.phi", "foot.phi", "cylinder.z", f"eye.{about}"}
+    motion = mechanism.sweep({"cylinder.z": STROKES})
+    np.testing.assert_allclose(motion.coordinates["boom"][:, 0], boom_angle(STROKES), atol=1e-13)
+    expected = in_space(mechanism).sweep({"cylinder.z": STROKES})
+    for one, other in zip(motion.displacements, expected.displacements, strict=True):
+        np.testing.assert_allclose(one, other, atol=1e-11)
+    np.testing.assert_allclose(motion.transforms["rod"], expected.transforms["rod"], atol=1e-11)
+
+
 def test_a_turn_that_carries_parts_in_the_plane_is_not_left_out():
     """Two swivels one above the other, as in a crank across the plane: their turns move the eye along the plane."""
     along = unit(np.array([1.0, 4.0, 0.0]))
@@ -94,7 +119,7 @@ def test_a_turn_that_carries_parts_in_the_plane_is_not_left_out():
     "last",
     [
         jk.revolute("eye", "rod", "boom", point=(4, 0, 0), axis=(0, 0.5, 1)),  # a hinge that is tilted
-        jk.spherical("eye", "rod", "boom", point=(4, 0, 0)),
+        jk.screw("eye", "rod", "boom", point=(4, 0, 0), axis=Z, pitch=0.1),
         jk.planar("eye", "rod", "boom", point=(4, 0, 0), normal=(1, 1, 0)),  # its slides are oblique to the plane
     ],
     ids=lambda joint: joint.kind,
@@ -156,5 +181,5 @@ def test_gradients_are_those_in_space():
     assert np.abs(np.asarray(one[1].frames_1)[:, :2, 3]).max() > 0.1
 
 
-def test_a_single_loop_group_without_loops_has_no_plane():
-    assert decoupled_plane([jk.spherical("A", "a", "b", point=(0, 0, 0))], []) is None
+def test_couplings_without_loops_have_no_plane():
+    assert decoupled_plane([jk.revolute("A", "a", "b", point=(0, 0, 0), axis=Z)], []) is None

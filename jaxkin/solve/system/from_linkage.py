@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from itertools import accumulate, pairwise
 from typing import NamedTuple
 
-from jaxkin.geometry.movements import MOVEMENTS, remaining
+from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.partial_movement import remaining
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.linkage import Linkage
@@ -81,12 +82,11 @@ def group_system(
     """
     columns, movements, planar, _ = solved_coordinates(linkage, loop_group, driven, loop_class)
     circuits = tuple(loop for loops, _ in groups for loop in loops) or loop_group.loops
-    loop_class = renumbered(
-        loop_class._replace(plane=tuple(range(len(columns))) if planar else None, decoupled_plane=None),
-        loop_group.loops,
-        circuits,
-        linkage.solved_joints,
-    )
+    if planar:
+        loop_class = LoopClass(plane=tuple(range(len(columns))))
+    else:
+        loop_class = loop_class._replace(plane=None, decoupled_plane=None)
+        loop_class = renumbered(loop_class, loop_group.loops, circuits, linkage.solved_joints)
     number = {joint: place for place, joint in enumerate(loop_group.joints)}
     loops = tuple(tuple((number[joint], sign) for joint, sign in loop) for loop in circuits)
     ends = [0, *accumulate(len(loops) for loops, _ in groups)]
