@@ -5,9 +5,9 @@ A movement displaces a local frame. Its coordinates x, y, z are translations alo
 rotation about z, as the paper prints it. Each movement is one row of `MOVEMENTS`, the only table that is keyed by
 movements. A row holds the movement as a product of elementary motions, from which displacements, screws and
 closure equations follow, and all else that depends on the movement. `T_screw`, the helical pair,
-`T_theta_phi_theta`, the constant velocity joint, `T_theta` and `T_phi_y`, turns about x and y alone, `T_s` and
-`T_s_back`, which travel along a curve, `T_uv`, which travels over a surface, and `I`, the identity, are not in the
-paper.
+`T_theta_phi_theta`, the constant velocity joint, `T_theta`, `T_phi_y`, `T_x` and `T_y`, turns about and slides along x
+and y alone, `T_s` and `T_s_back`, which travel along a curve, `T_uv`, which travels over a surface, and `I`, the
+identity, are not in the paper.
 """
 
 from __future__ import annotations
@@ -154,8 +154,11 @@ MOVEMENTS: dict[str, Movement] = {
         aligned=frozenset({"axis", "direction"}),
         figures=((CylinderFigure(2, 2.0, 2.4),), (CylinderFigure(2, 1.2, 4.4),)),
     ),
-    "T_theta": Movement(coordinates=("theta",), elements=(_rotate(0, 0),)),  # of a ball or a cross, in a plane
-    "T_phi_y": Movement(coordinates=("phi",), elements=(_rotate(1, 0),)),  # the same about y
+    # what keeping to a plane leaves of balls and crosses, and of plates across it
+    "T_theta": Movement(coordinates=("theta",), elements=(_rotate(0, 0),)),
+    "T_phi_y": Movement(coordinates=("phi",), elements=(_rotate(1, 0),)),
+    "T_x": Movement(coordinates=("x",), elements=(_translate(0, 0),)),
+    "T_y": Movement(coordinates=("y",), elements=(_translate(1, 0),)),
     "T_screw": Movement(
         coordinates=("phi",),
         elements=(ElementaryMotion("screw", 2, 0),),

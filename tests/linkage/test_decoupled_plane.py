@@ -106,6 +106,26 @@ def test_balls_and_crosses_turn_in_the_plane_like_hinges(normal):
     np.testing.assert_allclose(motion.transforms["rod"], expected.transforms["rod"], atol=1e-11)
 
 
+@pytest.mark.parametrize("along", [(1, 0, 0), (0, 1, 0)], ids=["x", "y"])
+def test_a_plate_across_the_plane_slides_along_one_line(along):
+    """The rod of a slider-crank of lengths 1 and 3 is hinged to a plate on a wall that is parallel to its hinge."""
+    across = np.cross((0, 0, 1), along)
+    point = 3 * np.array(along)
+    joints = [
+        jk.revolute("A", "ground", "crank", point=(0, 0, 0), axis=Z),
+        jk.revolute("B", "crank", "rod", point=-np.array(along, float), axis=Z),
+        jk.revolute("C", "rod", "plate", point=point - np.array(along), axis=Z),
+        jk.planar("D", "ground", "plate", point=point, normal=across),
+    ]
+    mechanism = jk.Mechanism.build(joints=joints, fixed=["ground"])
+    names = in_plane(mechanism)
+    assert len(names) == 4 and {"A.phi", "B.phi", "C.phi"} < names
+    angle = np.linspace(-1.0, 1.0, 21)
+    motion = mechanism.sweep({"A": angle})
+    moved = motion.transforms["plate"][:, :3, 3] @ np.array(along, float)
+    np.testing.assert_allclose(moved, np.sqrt(9 - np.sin(angle) ** 2) - np.cos(angle) - 2, atol=1e-13)
+
+
 def test_a_turn_that_carries_parts_in_the_plane_is_not_left_out():
     """Two swivels one above the other, as in a crank across the plane: their turns move the eye along the plane."""
     along = unit(np.array([1.0, 4.0, 0.0]))
@@ -120,7 +140,7 @@ def test_a_turn_that_carries_parts_in_the_plane_is_not_left_out():
     [
         jk.revolute("eye", "rod", "boom", point=(4, 0, 0), axis=(0, 0.5, 1)),  # a hinge that is tilted
         jk.screw("eye", "rod", "boom", point=(4, 0, 0), axis=Z, pitch=0.1),
-        jk.planar("eye", "rod", "boom", point=(4, 0, 0), normal=(1, 1, 0)),  # its slides are oblique to the plane
+        jk.planar("eye", "rod", "boom", point=(4, 0, 0), normal=(1, 1, 1)),  # its slides are oblique to the plane
     ],
     ids=lambda joint: joint.kind,
 )

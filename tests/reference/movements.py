@@ -1,4 +1,4 @@
-"""The matrices of Section 3 entry by entry, as the paper prints them (but for errata), of a screw, of turns about x and y, and of none."""
+"""The matrices of Section 3 entry by entry, as the paper prints them (but for errata), of a screw, of turns about and slides along x and y, and of none."""
 
 import numpy as np
 
@@ -13,6 +13,10 @@ def matrix(movement, q, pitch=0.0):
             rows = [[one, zero, zero, zero], [zero, one, zero, zero], [zero, zero, one, zero]]
         case "T_z":
             rows = [[one, zero, zero, zero], [zero, one, zero, zero], [zero, zero, one, q[0]]]
+        case "T_x":
+            rows = [[one, zero, zero, q[0]], [zero, one, zero, zero], [zero, zero, one, zero]]
+        case "T_y":
+            rows = [[one, zero, zero, zero], [zero, one, zero, q[0]], [zero, zero, one, zero]]
         case "T_phi":
             rows = _about_z(c[0], s[0], zero, zero, zero)
         case "T_theta":
