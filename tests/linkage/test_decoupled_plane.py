@@ -119,7 +119,7 @@ def test_a_plate_across_the_plane_slides_along_one_line(along):
     ]
     mechanism = jk.Mechanism.build(joints=joints, fixed=["ground"])
     names = in_plane(mechanism)
-    assert len(names) == 4 and {"A.phi", "B.phi", "C.phi"} < names
+    assert names is not None and len(names) == 4 and {"A.phi", "B.phi", "C.phi"} < names
     angle = np.linspace(-1.0, 1.0, 21)
     motion = mechanism.sweep({"A": angle})
     moved = motion.transforms["plate"][:, :3, 3] @ np.array(along, float)

@@ -1,4 +1,4 @@
-"""The matrices of Section 3 entry by entry, as the paper prints them (but for errata), of a screw, of turns about and slides along x and y, and of none."""
+"""The matrices of Section 3 entry by entry, as the paper prints them (but for errata), and of movements of our own."""
 
 import numpy as np
 
