@@ -1,9 +1,9 @@
 """Attach the derivatives of closed poses by the implicit function theorem.
 
 A closed pose satisfies r(geometry, inputs, free coordinates) = 0, so its free coordinates change by the least-norm
-solution of `J delta = -dr`, which is found block after block, as the pose was. This rule serves forward, reverse and nested differentiation, and no iteration is
-differentiated. A pose that did not close has no derivative: it is set to zero, and no number of such a pose enters the
-derivative of another one.
+solution of `J delta = -dr`, which is found block after block, as the pose was. This rule serves forward, reverse and
+nested differentiation, and no iteration is differentiated. A pose that did not close has no derivative: it is set to
+zero, and no number of such a pose enters the derivative of another one.
 """
 
 from __future__ import annotations
