@@ -53,9 +53,7 @@ def loop_classes(joints: Sequence[Joint], structure: Structure) -> tuple[LoopCla
         schoenflies = tuple(number for number, chain in enumerate(chains) if turn_about_one_direction(chain))
         spherical = tuple(number for number, chain in enumerate(chains) if turn_about_one_point(chain))
         plane = plane_columns(inside)
-        place = {joint: number for number, joint in enumerate(loop_group.joints)}
-        loops = [tuple(step._replace(joint=place[step.joint]) for step in loop) for loop in loop_group.loops]
-        decoupled = None if plane is not None else decoupled_plane(inside, loops)
+        decoupled = None if plane is not None else decoupled_plane(joints, structure, loop_group)
         found.append(LoopClass(plane, decoupled, idle_spins(inside, bodies), schoenflies, spherical, True))
     return tuple(found)
 

@@ -9,7 +9,6 @@ import pytest
 
 import jaxkin as jk
 from jaxkin.geometry.pose import rotation, unit
-from jaxkin.linkage.decoupled_plane import decoupled_plane
 
 Z = (0, 0, 1)
 IN_PLANE = {"boom.phi", "foot.phi", "cylinder.z", "eye.phi"}
@@ -201,5 +200,74 @@ def test_gradients_are_those_in_space():
     assert np.abs(np.asarray(one[1].frames_1)[:, :2, 3]).max() > 0.1
 
 
-def test_couplings_without_loops_have_no_plane():
-    assert decoupled_plane([jk.revolute("A", "a", "b", point=(0, 0, 0), axis=Z)], []) is None
+def test_a_freedom_out_of_the_plane_that_is_not_idle_is_not_left_out():
+    """Tube and boom hang in swivels beside their hinges: they tilt together, and the eye then comes nearer."""
+    along = unit(np.array([1.0, 4.0, 0.0]))
+    joints = [
+        jk.revolute("boom", "ground", "ring", point=(0, 0, 0), axis=Z),
+        jk.revolute("tilt", "ring", "boom", point=(0, 0, 0), axis=unit(np.array([4.0, 3.0, 0.0]))),
+        jk.revolute("foot", "ground", "other ring", point=(3, -4, 0), axis=Z),
+        jk.revolute("tilt of tube", "other ring", "tube", point=(3, -4, 0), axis=unit(np.array([-4.0, 1.0, 0.0]))),
+        jk.prismatic("slide", "tube", "rod", axis=along),
+        jk.spherical("eye", "rod", "boom", point=(4, 0, 0)),
+    ]
+    assert in_plane(jk.Mechanism.build(joints=joints, fixed=["ground"])) is None
+
+
+def drawn(rng):
+    """A four-bar, or a crane, of any joints: mechanism and drive.
+
+    Hinges, pins, balls, crosses and swivels at any height; tubes, and plates across the plane, where parts slide.
+    """
+    places = rng.normal(size=(4, 2)) * 2
+
+    def level(place):
+        return (*place, rng.choice([0.0, 0.0, rng.normal()]))
+
+    def hinge(name, one, other, place):
+        point, angle = level(place), rng.uniform(0, np.pi)
+        across = (np.cos(angle), np.sin(angle), 0.0)
+        match rng.choice(["hinge", "pin", "ball", "cross", "swivel"], p=[0.4, 0.2, 0.2, 0.1, 0.1]):
+            case "hinge":
+                return [jk.revolute(name, one, other, point=point, axis=Z)]
+            case "pin":
+                return [jk.cylindrical(name, one, other, point=point, axis=Z)]
+            case "ball":
+                return [jk.spherical(name, one, other, point=point)]
+            case "cross":
+                return [jk.universal(name, one, other, point=point, axis1=Z, axis2=across)]
+        swivel = jk.revolute(f"{name} swivel", f"{name} ring", other, point=point, axis=across)
+        return [jk.revolute(name, one, f"{name} ring", point=point, axis=Z), swivel]
+
+    if rng.integers(2):
+        ends = [("ground", "a"), ("a", "b"), ("b", "c"), ("c", "ground")]
+        joints = [hinge(name, *pair, place) for name, pair, place in zip("ABCD", ends, places, strict=True)]
+        drive = "A"
+    else:
+        along = (*unit(places[2] - places[1]), 0.0)
+        slide = jk.cylindrical("S", "tube", "rod", point=level(places[1]), axis=along)
+        if rng.integers(2):
+            slide = jk.planar("S", "tube", "rod", point=level(places[1]), normal=np.cross(along, Z))
+        ends = [("ground", "boom"), ("ground", "tube"), ("rod", "boom")]
+        joints = [hinge(name, *pair, place) for name, pair, place in zip("ABC", ends, places, strict=False)]
+        joints, drive = [*joints, [slide]], "S"
+    return jk.Mechanism.build(joints=[each for some in joints for each in some], fixed=["ground"]), drive
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(5))
+def test_cranes_and_four_bars_of_any_joints_move_in_the_plane_as_in_space(seed):
+    rng = np.random.default_rng(seed)
+    while True:
+        mechanism, drive = drawn(rng)
+        if mechanism.linkage.classes[0].decoupled_plane is not None:
+            break
+    names = in_plane(mechanism)
+    assert names is not None
+    inputs = {next(name for name in sorted(names) if name.startswith(f"{drive}.")): np.linspace(-0.5, 0.5, 9)}
+    motion, expected = (each.sweep(inputs) for each in (mechanism, in_space(mechanism)))
+    np.testing.assert_array_equal(motion.status, expected.status)
+    closed = np.asarray(motion.closed)
+    for part in mechanism.parts:
+        one, other = (np.asarray(each.transforms[part])[closed] for each in (motion, expected))
+        np.testing.assert_allclose(one, other, atol=1e-9)  # closure to 1e-12, over the distance to a limit
