@@ -62,7 +62,7 @@ def test_redundant_bars_are_groups_of_their_own():
         (planar_fourbar(pin=cylindrical), "A.phi", "planar", 3, 0, 0),
         (bennett_linkage(), "A", "spatial", 6, 3, 0),
         (rssr_linkage(), "A", "spatial", 1, 0, 0),
-        (cam(), "shaft", "spatial", 6, 1, 0),
+        (cam(), "shaft", "planar", 3, 0, 0),
         (catalogue.sarrus(), "x0", "spatial", 6, 1, 0),
         (catalogue.cam_roller(), "shaft", "planar", 3, 0, 0),
     ],
