@@ -21,10 +21,10 @@ from jaxkin.effects.mode_plot import draw_modes
 from jaxkin.effects.mode_search import FoundPoses, PoseFeatures, Starts, find_modes, wrap_angles
 from jaxkin.effects.pose_plot import save_rows
 from jaxkin.linkage.coordinates import coordinate, resolve
+from jaxkin.linkage.host_closure import ClosedLoops
 from jaxkin.mechanism.describe import why_infeasible
 from jaxkin.mechanism.drive_plan import DrivenLoopGroup, plan_drive
 from jaxkin.mechanism.motion import Motion
-from jaxkin.mobility.host_closure import ClosedLoops
 from jaxkin.mobility.infeasible_drive import undriven_freedoms
 from jaxkin.mobility.loop_freedoms import loop_freedoms
 from jaxkin.mobility.open_loops import check_closed

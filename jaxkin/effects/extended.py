@@ -17,7 +17,7 @@ from jaxkin.geometry.elementary_motions import ElementaryMotion, amount, displac
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.patches import FollowedPoint, FollowedSpline, bicubic, patch_point
 from jaxkin.joints.joint import Joint
-from jaxkin.mobility.host_closure import ClosedLoops
+from jaxkin.linkage.host_closure import ClosedLoops
 from jaxkin.topology.structure import LoopGroup
 
 if TYPE_CHECKING:

@@ -21,10 +21,10 @@ from jaxkin.effects.motion_curve import Curve
 from jaxkin.effects.pose_plot import save_rows
 from jaxkin.geometry.movements import is_length
 from jaxkin.linkage.coordinates import coordinate, coordinates
+from jaxkin.linkage.host_closure import ClosedLoops
 from jaxkin.mechanism.describe import why_infeasible
 from jaxkin.mechanism.joint_limits import rounding
 from jaxkin.mechanism.motion import Motion
-from jaxkin.mobility.host_closure import ClosedLoops
 from jaxkin.mobility.infeasible_drive import infeasible_drive, undriven_freedoms
 from jaxkin.mobility.loop_freedoms import loop_freedoms
 from jaxkin.mobility.open_loops import check_closed

@@ -17,8 +17,8 @@ import numpy as np
 from jaxtyping import Array, Float, Int
 
 from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.linkage.host_closure import ClosedLoops, Row
 from jaxkin.mechanism.drive_plan import DrivenLoopGroup
-from jaxkin.mobility.host_closure import ClosedLoops, Row
 from jaxkin.solve.closed_form.assembled_axes import assembled_axes
 from jaxkin.solve.closed_form.formula_displacements import joint_displacements
 from jaxkin.solve.closed_form.group_formulas import GroupFormula, group_formulas

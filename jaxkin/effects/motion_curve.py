@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.mobility.host_closure import ClosedLoops, Row
+from jaxkin.linkage.host_closure import ClosedLoops, Row
 from jaxkin.solve.continuation.step import CROSSING
 
 LONGEST_STEP = 0.2

@@ -19,8 +19,8 @@ from jaxkin.effects.workspace import Workspace, drawn
 from jaxkin.effects.workspace_plot import draw_workspace
 from jaxkin.geometry.pose import apply
 from jaxkin.linkage.coordinates import coordinate
+from jaxkin.linkage.host_closure import ClosedLoops
 from jaxkin.mechanism.placed_at import part_places
-from jaxkin.mobility.host_closure import ClosedLoops
 from jaxkin.mobility.loop_freedoms import loop_freedoms
 from jaxkin.solve.status import Status
 

@@ -5,8 +5,9 @@ A movement displaces a local frame. Its coordinates x, y, z are translations alo
 rotation about z, as the paper prints it. Each movement is one row of `MOVEMENTS`, the only table that is keyed by
 movements. A row holds the movement as a product of elementary motions, from which displacements, screws and
 closure equations follow, and all else that depends on the movement. `T_screw`, the helical pair,
-`T_theta_phi_theta`, the constant velocity joint, `T_s` and `T_s_back`, which travel along a curve, `T_uv`, which
-travels over a surface, and `I`, the identity, are not in the paper.
+`T_theta_phi_theta`, the constant velocity joint, `T_theta`, `T_phi_y`, `T_x` and `T_y`, turns about and slides along x
+and y alone, `T_s` and `T_s_back`, which travel along a curve, `T_uv`, which travels over a surface, and `I`, the
+identity, are not in the paper.
 """
 
 from __future__ import annotations
@@ -77,9 +78,6 @@ class Movement:
     "direction", the direction of z; "centre", the origin."""
     figures: tuple[tuple[Figure, ...], tuple[Figure, ...]] = ((), ())
     """The solids drawn for part 1 (bearing, rail, plate) and for part 2 (pin, slider, puck, ball)."""
-    without_normal: str | None = None
-    """Key of the movement that remains in a planar loop with normal z, in which nothing moves along z; None for
-    movements without translation along z."""
     lock: AngleLock | None = None
     """The gimbal lock of this movement and the next one in a chain; None where there is none."""
 
@@ -146,7 +144,6 @@ MOVEMENTS: dict[str, Movement] = {
         feature=InvariantFeature("axis"),
         aligned=frozenset({"direction"}),
         figures=((ROD,), (BoxFigure((3.6, 3.6, 6.0)),)),
-        without_normal="I",
     ),
     "T_phi": Movement(
         coordinates=("phi",),
@@ -157,6 +154,11 @@ MOVEMENTS: dict[str, Movement] = {
         aligned=frozenset({"axis", "direction"}),
         figures=((CylinderFigure(2, 2.0, 2.4),), (CylinderFigure(2, 1.2, 4.4),)),
     ),
+    # what keeping to a plane leaves of balls and crosses, and of plates across it
+    "T_theta": Movement(coordinates=("theta",), elements=(_rotate(0, 0),)),
+    "T_phi_y": Movement(coordinates=("phi",), elements=(_rotate(1, 0),)),
+    "T_x": Movement(coordinates=("x",), elements=(_translate(0, 0),)),
+    "T_y": Movement(coordinates=("y",), elements=(_translate(1, 0),)),
     "T_screw": Movement(
         coordinates=("phi",),
         elements=(ElementaryMotion("screw", 2, 0),),
@@ -174,7 +176,6 @@ MOVEMENTS: dict[str, Movement] = {
         surface="cylinder",
         aligned=frozenset({"axis", "direction"}),
         figures=((ROD,), (CylinderFigure(2, 1.6, 6.0),)),
-        without_normal="T_phi",
     ),
     "T_xy_phi": Movement(
         coordinates=("x", "y", "phi"),

@@ -10,6 +10,7 @@ import numpy as np
 
 from jaxkin._traced import traced
 from jaxkin.joints.joint import Joint
+from jaxkin.linkage.decoupled_plane import decoupled_plane
 from jaxkin.linkage.planes import plane_columns, turn_about_one_direction, turn_about_one_point
 from jaxkin.linkage.rods import idle_spins
 from jaxkin.topology.graph import Circuit
@@ -21,6 +22,8 @@ class LoopClass(NamedTuple):
 
     plane: tuple[int, ...] | None = None
     """Columns of the coordinates that act in the plane if all joints move in parallel planes; else None."""
+    decoupled_plane: tuple[int, ...] | None = None
+    """The same if joints could leave the plane, but rest where the others keep to it; else None."""
     spins: tuple[tuple[int, int, int, int], ...] = ()
     """Rods that spin idly about the line through their two balls: the numbers of both balls, and for each ball +1, or
     -1 where the rod is part 1 of the ball's joint."""
@@ -49,7 +52,9 @@ def loop_classes(joints: Sequence[Joint], structure: Structure) -> tuple[LoopCla
         chains = [[joints[joint] for joint, _ in loop] for loop in loop_group.loops]
         schoenflies = tuple(number for number, chain in enumerate(chains) if turn_about_one_direction(chain))
         spherical = tuple(number for number, chain in enumerate(chains) if turn_about_one_point(chain))
-        found.append(LoopClass(plane_columns(inside), idle_spins(inside, bodies), schoenflies, spherical, True))
+        plane = plane_columns(inside)
+        decoupled = None if plane is not None else decoupled_plane(joints, structure, loop_group)
+        found.append(LoopClass(plane, decoupled, idle_spins(inside, bodies), schoenflies, spherical, True))
     return tuple(found)
 
 

@@ -29,7 +29,7 @@ def plane_columns(joints: Sequence[Joint]) -> tuple[int, ...] | None:
     out: they commute with all other motions, and rest. Where frames of a joint on its two parts differ along the
     normal, because lengths were changed, such translations may be needed, and the loops count as spatial (None).
     """
-    if traced(joints) or (axes := _axes(joints)) is None:
+    if traced(joints) or (axes := elementary_axes(joints)) is None:
         return None
     turning, sliding = axes
     if not _one_direction(turning):
@@ -42,16 +42,19 @@ def plane_columns(joints: Sequence[Joint]) -> tuple[int, ...] | None:
             inside.append(column)
         elif np.any(np.linalg.norm(np.cross(axes, normal), axis=-1) > PARALLEL):
             return None
+    return tuple(sorted(inside)) if level(joints, normal) else None
+
+
+def level(joints: Sequence[Joint], normal: np.ndarray) -> bool:
+    """Tell whether no joint has its frames on its two parts apart along a normal, as changes of lengths leave them."""
     origins = np.concatenate([side[:, :3, 3] for joint in joints for side in (joint.frames_1, joint.frames_2)])
     shifts = [(np.asarray(joint.frames_1) - np.asarray(joint.frames_2))[:, :3, 3] @ normal for joint in joints]
-    if np.max(np.abs(np.concatenate(shifts))) > PARALLEL * np.ptp(origins, axis=0).max(initial=0.0):
-        return None
-    return tuple(sorted(inside))
+    return bool(np.max(np.abs(np.concatenate(shifts))) <= PARALLEL * np.ptp(origins, axis=0).max(initial=0.0))
 
 
 def turn_about_one_direction(joints: Sequence[Joint]) -> bool:
     """Tell whether all rotations of the joints are about one direction; False where the frames are traced."""
-    axes = None if traced(joints) else _axes(joints)
+    axes = None if traced(joints) else elementary_axes(joints)
     return axes is not None and _one_direction(axes[0])
 
 
@@ -62,7 +65,7 @@ def turn_about_one_point(joints: Sequence[Joint]) -> bool:
     origin of the frame, so that it is one point of both parts however far the joint turns. Joints whose axes all have
     one direction are not spherical but planar.
     """
-    axes = None if traced(joints) else _axes(joints)
+    axes = None if traced(joints) else elementary_axes(joints)
     if axes is None or not axes[0] or axes[1] or _one_direction(axes[0]):
         return False
     turning, _ = axes
@@ -78,7 +81,7 @@ def turn_about_one_point(joints: Sequence[Joint]) -> bool:
 
 
 def _origins(joint: Joint) -> np.ndarray:
-    """List a point on each axis of `_axes`: (2 coordinates, 3), for each coordinate on part 1, then on part 2."""
+    """List a point on each of `elementary_axes`: (2 coordinates, 3), for each coordinate on part 1, then on part 2."""
     sides = np.asarray(joint.frames_1, float), np.asarray(joint.frames_2, float)
     return np.array(
         [
@@ -94,9 +97,12 @@ Axes = list[tuple[int, np.ndarray, np.ndarray]]
 """(column of a coordinate, direction of its axis on part 1, direction on part 2), both unit vectors in the world."""
 
 
-def _axes(joints: Sequence[Joint]) -> tuple[Axes, Axes] | None:
-    """List the axes of rotations and the axes of translations; None where a joint is a ball or a
-    screw, or follows a curve or a surface, where its axes are no straight lines."""
+def elementary_axes(joints: Sequence[Joint], *, of_balls: bool = False) -> tuple[Axes, Axes] | None:
+    """List the axes of rotations and the axes of translations in the assembled pose.
+
+    None where a joint is a screw, or follows a curve or a surface, where its axes are no straight lines; and where it
+    is a ball, unless its three axes count as those `of_balls`.
+    """
     turning: Axes = []
     sliding: Axes = []
     column = 0
@@ -104,7 +110,7 @@ def _axes(joints: Sequence[Joint]) -> tuple[Axes, Axes] | None:
         sides = np.asarray(joint.frames_1, float), np.asarray(joint.frames_2, float)
         for frame, name in enumerate(joint.movements):
             movement = MOVEMENTS[name]
-            if movement.ball or movement.has_pitch or movement.follows:
+            if movement.has_pitch or movement.follows or (movement.ball and not of_balls):
                 return None
             for element in movement.elements:
                 first, second = (side[frame][:3, element.axis] for side in sides)

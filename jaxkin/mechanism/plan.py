@@ -121,7 +121,7 @@ def _skipped(linkage: Linkage, driven: Collection[Place], found: DrivePlan) -> l
 
 
 def _at_rest(linkage: Linkage, found: DrivePlan) -> list[str]:
-    """Tell of coordinates along the normals of planar elements, and of loops in which all coordinates are given."""
+    """Tell of coordinates out of the planes of planar loops, and of loops in which all coordinates are given."""
     texts = []
     for loop_group in found.loop_groups:
         own = set(loop_group.columns)
@@ -132,7 +132,7 @@ def _at_rest(linkage: Linkage, found: DrivePlan) -> list[str]:
             if (index, k) not in own
         ]
         if resting:
-            texts.append(f"{listed(resting)}: along the normal of the plane of the loops, at rest")
+            texts.append(f"{listed(resting)}: out of the plane of the loops, at rest")
         checked = sum(len(group.loops) for group in loop_group.groups if not group.unknowns)
         if checked:
             what = "the loop" if checked == 1 else f"{checked} loops"

@@ -19,11 +19,11 @@ from jaxkin._names import listed
 from jaxkin._traced import traced
 from jaxkin.geometry.pose import Pose, turned_by
 from jaxkin.linkage.coordinates import coordinate
+from jaxkin.linkage.host_closure import ClosedLoops, Row
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.placed_at import placed_at
 from jaxkin.mobility.alignment import asked_noise, extent
 from jaxkin.mobility.assembly_modes import STARTS, closed_from_elsewhere, other_modes
-from jaxkin.mobility.host_closure import ClosedLoops, Row
 from jaxkin.mobility.open_loops import Opening, tell_opening
 
 if TYPE_CHECKING:

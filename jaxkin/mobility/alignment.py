@@ -21,9 +21,9 @@ from jaxkin._names import listed
 from jaxkin._traced import traced
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.regularise import Noise, align
+from jaxkin.linkage.host_closure import ClosedLoops
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.consistency import STILL, beside, rounding
-from jaxkin.mobility.host_closure import ClosedLoops
 from jaxkin.mobility.nearest_mobile import nearest_mobile
 from jaxkin.topology.structure import LoopGroup
 

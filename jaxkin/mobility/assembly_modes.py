@@ -16,7 +16,7 @@ from jaxtyping import Float
 from jaxkin.geometry.pose import Pose
 from jaxkin.joints.screws import Screws
 from jaxkin.linkage.first_order import null_space
-from jaxkin.mobility.host_closure import ClosedLoops, Row, Travel
+from jaxkin.linkage.host_closure import ClosedLoops, Row, Travel
 
 STARTS = 8
 """Number of other starts from which each loop group is closed."""

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from jaxkin.linkage.first_order import LARGEST_UNCERTAIN, SPREAD, null_space
-from jaxkin.mobility.host_closure import ClosedLoops, Row, Rows
+from jaxkin.linkage.host_closure import ClosedLoops, Row, Rows
 
 STEPS = (0.3, 0.1, 0.03)
 """Displacements from the assembled pose, radians or characteristic lengths, tried in turn until the loops nearly close.

@@ -17,8 +17,8 @@ from jaxkin.geometry.pose import Pose
 from jaxkin.joints.screws import Screws
 from jaxkin.joints.subgroups import Subgroup, subgroup
 from jaxkin.linkage.first_order import loop_jacobian, null_space
+from jaxkin.linkage.host_closure import ClosedLoops, Row, Travel, least_norm
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.mobility.host_closure import ClosedLoops, Row, Travel, least_norm
 from jaxkin.topology.structure import LoopGroup
 
 _STEP = 0.05

@@ -21,8 +21,8 @@ from jaxtyping import Float
 from jaxkin.geometry.pose import Pose, inverse
 from jaxkin.joints.screws import freedoms, moved
 from jaxkin.linkage.first_order import null_space
+from jaxkin.linkage.host_closure import ClosedLoops, Row
 from jaxkin.mobility.consistency import cutoff, nearest_closed, rounding
-from jaxkin.mobility.host_closure import ClosedLoops, Row
 
 Twists = Float[np.ndarray, "frames 6"]
 """Small twists of frames in world coordinates about the centroid, lengths over the characteristic length: rotation

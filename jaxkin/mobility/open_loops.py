@@ -10,8 +10,8 @@ from jaxkin._names import listed
 from jaxkin._traced import traced
 from jaxkin.geometry.pose import apply, turned_by
 from jaxkin.joints.screws import complement, freedoms
+from jaxkin.linkage.host_closure import ClosedLoops, Row, Travel
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.mobility.host_closure import ClosedLoops, Row, Travel
 
 
 @dataclass(frozen=True)

@@ -93,16 +93,15 @@ def test_a_movement_added_as_a_row_is_swept_measured_and_drawn(monkeypatch):
         coordinates=("x",),
         elements=(replace(slide.elements[0], axis=0),),
         feature=slide.feature._replace(axis=0) if slide.feature else None,
-        without_normal=None,
     )
-    monkeypatch.setitem(MOVEMENTS, "T_x", across)
+    monkeypatch.setitem(MOVEMENTS, "T_slide", across)
     z = np.array([0.0, 0.0, 1.0])
     pins = [
         jk.revolute("A", "ground", "crank", point=(0, 0, 0), axis=z),
         jk.revolute("B", "crank", "rod", point=(1, 0, 0), axis=z),
         jk.revolute("C", "rod", "slider", point=(4, 0, 0), axis=z),
     ]
-    rail = joint("D", ("ground", "slider"), JointKind.PRISMATIC, ("T_x",), [np.eye(4)])
+    rail = joint("D", ("ground", "slider"), JointKind.PRISMATIC, ("T_slide",), [np.eye(4)])
     mechanism = jk.Mechanism.build(joints=[*pins, rail], fixed=["ground"])
     angle = np.linspace(0.0, 2.0, 9)
     motion = mechanism.sweep({"A": angle})

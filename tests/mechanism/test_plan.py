@@ -62,7 +62,7 @@ def test_redundant_bars_are_groups_of_their_own():
         (planar_fourbar(pin=cylindrical), "A.phi", "planar", 3, 0, 0),
         (bennett_linkage(), "A", "spatial", 6, 3, 0),
         (rssr_linkage(), "A", "spatial", 1, 0, 0),
-        (cam(), "shaft", "spatial", 6, 1, 0),
+        (cam(), "shaft", "planar", 3, 0, 0),
         (catalogue.sarrus(), "x0", "spatial", 6, 1, 0),
         (catalogue.cam_roller(), "shaft", "planar", 3, 0, 0),
     ],
@@ -88,7 +88,7 @@ def test_the_paper_in_words():
     text = str(both)
     second = "2. after 1: 1 planar dyad RRR over p1&p9, p4, p5, p6: 3 unknowns of p4-p5, p5-p6, p6-p9, 3 equations"
     assert second in text
-    assert "p15-p16.z, p15-p18.z, p16-p17.z, p17-p18.z: along the normal of the plane of the loops, at rest" in text
+    assert "p15-p16.z, p15-p18.z, p16-p17.z, p17-p18.z: out of the plane of the loops, at rest" in text
     assert "not solved: p3-p11 is in no loop: its displacement is given, and moves p11" in text
 
     alone = assembly.mechanism(fixed=["p1"]).plan(drive)

@@ -59,7 +59,7 @@ CASES = {
         ["A"],
         ["spherical dyad RRR"] * 4,
     ),
-    "cam": (cam, ["shaft"], ["spatial loop RP(ER)"]),
+    "cam": (cam, ["shaft"], ["planar dyad P(PR)"]),
     "hexapod": (catalogue.hexapod, LEGS, ["5 spatial loops"]),
     "hexapod of one leg": (catalogue.hexapod, LEGS[:1], ["5 spatial loops"]),
 }

@@ -1,4 +1,4 @@
-"""The matrices of Section 3 entry by entry, as the paper prints them (but for errata), of a screw, and of none."""
+"""The matrices of Section 3 entry by entry, as the paper prints them (but for errata), and of movements of our own."""
 
 import numpy as np
 
@@ -13,8 +13,16 @@ def matrix(movement, q, pitch=0.0):
             rows = [[one, zero, zero, zero], [zero, one, zero, zero], [zero, zero, one, zero]]
         case "T_z":
             rows = [[one, zero, zero, zero], [zero, one, zero, zero], [zero, zero, one, q[0]]]
+        case "T_x":
+            rows = [[one, zero, zero, q[0]], [zero, one, zero, zero], [zero, zero, one, zero]]
+        case "T_y":
+            rows = [[one, zero, zero, zero], [zero, one, zero, q[0]], [zero, zero, one, zero]]
         case "T_phi":
             rows = _about_z(c[0], s[0], zero, zero, zero)
+        case "T_theta":
+            rows = [[one, zero, zero, zero], [zero, c[0], -s[0], zero], [zero, s[0], c[0], zero]]
+        case "T_phi_y":
+            rows = [[c[0], zero, s[0], zero], [zero, one, zero, zero], [-s[0], zero, c[0], zero]]
         case "T_screw":
             rows = _about_z(c[0], s[0], zero, zero, pitch * q[0] / (2 * np.pi))
         case "T_z_phi":

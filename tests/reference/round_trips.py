@@ -6,9 +6,9 @@ Poses are closed on the host, by numpy, so that a whole catalogue costs no compi
 import numpy as np
 
 from jaxkin.geometry.movements import is_length
+from jaxkin.linkage.host_closure import ClosedLoops
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.placed_at import placed_at
-from jaxkin.mobility.host_closure import ClosedLoops
 
 METRES = {"": 1.0, "m": 1.0, "mm": 1e-3, "in": 0.0254}
 """Mechanisms without a unit are taken for metres."""

@@ -25,8 +25,8 @@ from reference.systems import loop_system
 
 
 def systems(mechanism, drive, **changed):
-    """The one structure element of a mechanism, cut and whole, and its joints."""
-    cut, joints = loop_system(mechanism, [(name, 0) for name in drive], **changed)
+    """The one structure element of a mechanism, cut and whole, and its joints; in space, also what keeps to a plane."""
+    cut, joints = loop_system(mechanism, [(name, 0) for name in drive], decoupled_plane=None, **changed)
     return cut, cut.uncut, joints
 
 

@@ -20,7 +20,7 @@ CASES = {
     watt: ("A", [3, 3]),
     jansen: ("O", [3, 3, 3]),
     rssr_linkage: ("A", [1]),
-    cam: ("shaft", [6]),
+    cam: ("shaft", [3]),
     spherical_linkage: ("A", [3]),
     sarrus: ("x0", [6]),
     hexapod: ("leg 0", [5]),

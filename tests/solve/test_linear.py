@@ -5,7 +5,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from jaxkin.solve.linear.blocks import inverse_jacobian, solve_blocks
+from jaxkin.solve.linear.blocks import inverse_jacobian, solve_blocks, solve_blocks_refined
 from jaxkin.solve.linear.least_norm import solve_least_norm, solve_least_norm_refined
 from reference.matrices import block_triangular
 
@@ -99,3 +99,24 @@ def test_the_inverse_does_what_solutions_are(poses):
     found = jnp.einsum("pcr,rp->cp", inverse, right)
     # the same operations in another order, of blocks whose conditions multiply up to 1e6
     np.testing.assert_allclose(found, expected, atol=1e-11 * np.abs(expected).max())
+
+
+def test_refined_blocks_solve_the_whole_and_their_derivative_does():
+    """dx of J x = r solves J dx = dr - dJ x; the last block leaves one unknown open, which least norm determines."""
+    rng = np.random.default_rng(3)
+    jacobian, blocks = block_triangular(rng, 4)
+    right, d_right = rng.normal(size=(2, 9, 4))
+    d_jacobian = np.where(jacobian != 0, rng.normal(size=jacobian.shape), 0.0)
+    x, dx = jax.jit(
+        lambda *given: jax.jvp(lambda j, r: solve_blocks_refined(j, r, 1e-14, blocks), given[:2], given[2:])
+    )(*map(jnp.asarray, (jacobian, right, d_jacobian, d_right)))
+    residual = np.einsum("rcp,cp->rp", jacobian, x) - right
+    change = np.einsum("rcp,cp->rp", jacobian, dx) + np.einsum("rcp,cp->rp", d_jacobian, x) - d_right
+    # rounding over the conditions of the blocks, up to a hundred here, which multiply; refinement removes the damping
+    np.testing.assert_allclose(residual, 0.0, atol=1e-13 * np.abs(x).max())
+    np.testing.assert_allclose(change, 0.0, atol=1e-12 * np.abs(dx).max())
+    last = blocks[-1]
+    for pose in range(4):
+        own = jacobian[np.ix_(last.rows, last.columns)][..., pose]
+        null = np.linalg.svd(own)[2][2:]
+        np.testing.assert_allclose(null @ np.asarray(x)[list(last.columns), pose], 0.0, atol=1e-12 * np.abs(x).max())

@@ -28,9 +28,9 @@ def lifted():
 
 
 def systems(mechanism, driven):
-    """The same loops with one equation of rotation where that is enough, and with three."""
+    """The same loops in space with one equation of rotation where that is enough, and with three."""
     for changed in ({}, {"schoenflies": ()}):
-        system, joints = loop_system(mechanism, driven, **changed)
+        system, joints = loop_system(mechanism, driven, decoupled_plane=None, **changed)
         yield system, jax.jit(loop_geometry, static_argnums=0)(system, *joints)[0]
 
 

@@ -3,8 +3,8 @@
 A loop has three equations instead of six: its rotations add up to zero, and so do the vectors of its links, each at its
 absolute angle. The absolute angles are sums of coordinates. Residual and Jacobian are linear in the cosines and sines
 of these angles (for links that slide also in the products of cosines and sines with the sliding coordinate), so that a
-loop is evaluated by two products of matrices. Coordinates along the normal (those of cylindrical joints) commute with
-all motions in the plane: they rest, and are no columns of the system.
+loop is evaluated by two products of matrices. Coordinates out of the plane (`linkage.planes`,
+`linkage.decoupled_plane`) rest, and are no columns of the system.
 """
 
 from __future__ import annotations

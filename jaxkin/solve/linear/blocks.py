@@ -13,7 +13,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from jaxkin.solve.linear.gram import Matrix, Vector, column_products
-from jaxkin.solve.linear.least_norm import MAX_UNROLLED_ROWS, factor_normal_equations
+from jaxkin.solve.linear.least_norm import MAX_UNROLLED_ROWS, factor_normal_equations, solve_least_norm_refined
 from jaxkin.solve.system.equation_blocks import EquationBlock
 from jaxkin.solve.system.scatter import scatter_rows
 
@@ -27,6 +27,24 @@ def solve_blocks(
     blocks of three equations in three unknowns are solved undamped by Cramer's rule, which costs less.
     """
     return _substitute_forward(jacobian, right[:, None], damping, blocks, regular)[:, 0]
+
+
+def solve_blocks_refined(jacobian: Matrix, right: Vector, damping: float, blocks: Sequence[EquationBlock]) -> Array:
+    """Solve J x = r block after block at every pose, each with least norm; returns x (columns, poses).
+
+    Other than that of `solve_blocks`, the solution may be differentiated, and one step of iterative refinement removes
+    the bias of the damping.
+    """
+    known: list[int] = []
+    found = jnp.zeros((0, right.shape[1]), right.dtype)
+    for block in blocks:
+        rest = right[np.array(block.rows)]
+        if known:
+            rest = rest - jnp.sum(jacobian[np.ix_(block.rows, known)] * found, axis=1)
+        own = jacobian[np.ix_(block.rows, block.columns)]
+        found = jnp.concatenate([found, solve_least_norm_refined(own, rest, damping, range(len(block.columns)))])
+        known += block.columns
+    return scatter_rows(found, known, jacobian.shape[1])
 
 
 def is_costly(blocks: Sequence[EquationBlock]) -> bool:

@@ -1,9 +1,9 @@
 """Attach the derivatives of closed poses by the implicit function theorem.
 
 A closed pose satisfies r(geometry, inputs, free coordinates) = 0, so its free coordinates change by the least-norm
-solution of `J delta = -dr`. This rule serves forward, reverse and nested differentiation, and no iteration is
-differentiated. A pose that did not close has no derivative: it is set to zero, and no number of such a pose enters the
-derivative of another one.
+solution of `J delta = -dr`, which is found block after block, as the pose was. This rule serves forward, reverse and
+nested differentiation, and no iteration is differentiated. A pose that did not close has no derivative: it is set to
+zero, and no number of such a pose enters the derivative of another one.
 """
 
 from __future__ import annotations
@@ -17,7 +17,8 @@ from jaxtyping import Array, Bool, Float
 
 from jaxkin.solve.closure.closure import Geometry, closure, free_jacobian
 from jaxkin.solve.correctors.levenberg_marquardt import damping_floor
-from jaxkin.solve.linear.least_norm import solve_least_norm_refined
+from jaxkin.solve.linear.blocks import solve_blocks_refined
+from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, assembled, drive, driven_rate, rate
 
@@ -60,7 +61,7 @@ def _implicit_jvp(system: LoopSystem, primals, tangents):
         of_geometry = jax.jvp(lambda own: closure(system, own, safe).residual, (geometry,), (d_geometry,))[1]
         d_residual = d_residual + of_geometry
     jacobian = free_jacobian(system, evaluation)
-    delta = -solve_least_norm_refined(jacobian, d_residual, damping_floor(jacobian.dtype), system.used)
+    delta = -solve_blocks_refined(jacobian, d_residual, damping_floor(jacobian.dtype), equation_blocks(system))
     d_state = jax.tree.map(jnp.add, d_driven, rate(system, safe, delta))
     return state, jax.tree.map(lambda d: jnp.where(closed, d, 0.0), d_state)
 

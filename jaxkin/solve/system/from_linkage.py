@@ -7,6 +7,7 @@ from itertools import accumulate, pairwise
 from typing import NamedTuple
 
 from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.partial_movement import remaining
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.linkage import Linkage
@@ -28,11 +29,11 @@ class SolvedCoordinates(NamedTuple):
 
     columns: Columns
     movements: tuple[tuple[str, ...], ...]
-    """For each joint of the loop group its movements, without translations along the normal of a planar group."""
+    """For each joint of the loop group its movements, without those that leave the plane of a planar group."""
     planar: bool
     """Whether all columns act in one plane."""
     at_rest: Columns
-    """Coordinates along the normal of the plane, which rest and are no columns of the system."""
+    """Coordinates that leave the plane, which rest and are no columns of the system."""
 
 
 def solved_coordinates(
@@ -40,28 +41,30 @@ def solved_coordinates(
 ) -> SolvedCoordinates:
     """Select the coordinates of a loop group that are solved or driven; `driven` are (joint, coordinate).
 
-    A planar loop group is solved in its plane, with all coordinates along the normal at rest, unless a coordinate along
-    the normal is driven or coupled.
+    A loop group with a plane is solved in the plane, with all other coordinates at rest, unless one of these is driven
+    or coupled.
     """
     every = [(index, k) for index in loop_group.joints for k in range(linkage.joints[index].freedoms)]
-    plane = {every[column] for column in loop_class.plane or ()}
+    kept, planar = set(every), False
     tied = [place for number in loop_group.couplings for place in coupled_places(linkage, number)]
-    planar = loop_class.plane is not None and bool(loop_group.loops) and plane.issuperset([*driven, *tied])
-    if not planar:
-        plane = set(every)
+    for columns in (loop_class.plane, loop_class.decoupled_plane):
+        if columns is not None and loop_group.loops:
+            plane = {every[column] for column in columns}
+            if plane.issuperset([*driven, *tied]):
+                kept, planar = plane, True
+                break
     movements = []
     for index in loop_group.joints:
         chain, first = [], 0
         for name in linkage.joints[index].movements:
             count = len(MOVEMENTS[name].coordinates)
-            whole = plane.issuperset((index, first + k) for k in range(count))
-            left = name if whole else MOVEMENTS[name].without_normal
+            left = remaining(name, [k for k in range(count) if (index, first + k) in kept])
             if left is None:
-                raise ValueError(f"the movement {name} has no translation along the normal of a plane that could rest")
+                raise ValueError(f"no movement is left of the movement {name} where what leaves the plane rests")
             chain.append(left)
             first += count
         movements.append(tuple(chain))
-    inside, outside = ([place for place in every if (place in plane) == yes] for yes in (True, False))
+    inside, outside = ([place for place in every if (place in kept) == yes] for yes in (True, False))
     return SolvedCoordinates(tuple(inside), tuple(movements), planar, tuple(outside))
 
 
@@ -79,12 +82,11 @@ def group_system(
     """
     columns, movements, planar, _ = solved_coordinates(linkage, loop_group, driven, loop_class)
     circuits = tuple(loop for loops, _ in groups for loop in loops) or loop_group.loops
-    loop_class = renumbered(
-        loop_class._replace(plane=tuple(range(len(columns))) if planar else None),
-        loop_group.loops,
-        circuits,
-        linkage.solved_joints,
-    )
+    if planar:
+        loop_class = LoopClass(plane=tuple(range(len(columns))))
+    else:
+        loop_class = loop_class._replace(plane=None, decoupled_plane=None)
+        loop_class = renumbered(loop_class, loop_group.loops, circuits, linkage.solved_joints)
     number = {joint: place for place, joint in enumerate(loop_group.joints)}
     loops = tuple(tuple((number[joint], sign) for joint, sign in loop) for loop in circuits)
     ends = [0, *accumulate(len(loops) for loops, _ in groups)]

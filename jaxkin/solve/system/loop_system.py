@@ -162,7 +162,7 @@ class LoopSystem:
 
     @property
     def planar(self) -> bool:
-        """Whether all coordinates act in one plane; coordinates along the normal of the plane are no columns then."""
+        """Whether all coordinates act in one plane; coordinates out of the plane are no columns then."""
         return self.loop_class.plane is not None
 
     @cached_property

@@ -6,9 +6,9 @@ from jaxkin.geometry.pose import frame
 from jaxkin.joints.joint import joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.pairs import planar
+from jaxkin.linkage.host_closure import ClosedLoops
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.mechanism import Mechanism
-from jaxkin.mobility.host_closure import ClosedLoops
 
 X, Y = frame(np.array([40.0, 0.0, 0.0]), np.array([1.0, 0.0, 0.0])), frame(np.zeros(3), np.array([0.0, 1.0, 0.0]))
 
