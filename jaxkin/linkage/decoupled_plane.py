@@ -46,13 +46,14 @@ def decoupled_plane(joints: Sequence[Joint], structure: Structure, loop_group: L
     inside = [joints[joint] for joint in loop_group.joints]
     if not loop_group.loops or traced(inside) or (axes := elementary_axes(inside, of_balls=True)) is None:
         return None
-    # lengths that were changed leave loops open, and directions as they are
+    # lengths that were changed leave loops open, and directions as they are; couplings tie what stays in the plane
     assembled = [replace(joint, frames_2=joint.frames_1) for joint in joints]
+    uncoupled = replace(loop_group, couplings=())
     for normal in _directions(axes[0]):
         columns = _in_plane(axes, normal)
         if columns is None or not _can_rest(inside, columns) or not level(inside, normal):
             continue
-        loops = ClosedLoops(assembled, structure, loop_group)
+        loops = ClosedLoops(assembled, structure, uncoupled)
         if _others_rest(loops, columns, normal, _of_balls(inside)):
             return columns
     return None

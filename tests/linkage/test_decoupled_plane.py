@@ -161,6 +161,20 @@ def test_a_drive_out_of_the_plane_is_solved_in_space():
     np.testing.assert_allclose(motion.coordinates["boom"][:, 0], 0.0, atol=1e-12)
 
 
+def test_a_coupling_in_the_plane_leaves_the_plane_as_it_is():
+    """A wheel on the ground turns twice as far as the boom that the cylinder lifts."""
+    wheel = jk.revolute("wheel", "ground", "wheel", point=(-3, 0, 0), axis=Z)
+    mechanism = jk.Mechanism.build(
+        joints=[*crane().all_joints, wheel], fixed=["ground"], couplings=[jk.gear("boom", "wheel", ratio=2)]
+    )
+    assert in_plane(mechanism) == IN_PLANE | {"wheel.phi"}
+    motion = mechanism.sweep({"cylinder.z": STROKES})
+    expected = in_space(mechanism).sweep({"cylinder.z": STROKES})
+    np.testing.assert_allclose(motion.coordinates["boom"][:, 0], boom_angle(STROKES), atol=1e-12)
+    for one, other in zip(motion.displacements, expected.displacements, strict=True):
+        np.testing.assert_allclose(one, other, atol=1e-12)
+
+
 def test_placed_and_numbered_anywhere_the_plane_is_the_same():
     mechanism = crane(height=0.3)
     pose = np.eye(4)
