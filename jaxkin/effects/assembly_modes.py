@@ -204,7 +204,7 @@ def assembly_modes(
     check_closed(linkage, mechanism.unit, "assembly modes", f"assembly_modes({dict(drive)})")
     if linkage.ideal:
         raise ValueError(f"assembly modes need loops that close: {'; '.join(mechanism.alignment)}")
-    plan = plan_drive(linkage, tuple(ranges))
+    plan = plan_drive(linkage.in_space, tuple(ranges))
     if plan.infeasible:
         raise ValueError(why_infeasible(mechanism, plan.infeasible))
     if free := undriven_freedoms(linkage, places):

@@ -18,10 +18,10 @@ from jaxkin._names import nearest
 from jaxkin._traced import traced
 from jaxkin.dimensions.frames import locate
 from jaxkin.dimensions.lengths import find_length, length_now
-from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.pose import frame
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.linkage import Linkage
+from jaxkin.linkage.planes import normal_of_turns
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.targets import Target
 
@@ -169,14 +169,9 @@ def _components(place: Any, asked: Any, known: Sequence[str]) -> tuple[int, ...]
 def _normal(linkage: Linkage, column: int) -> Float[np.ndarray, "3"] | None:
     """The normal of the plane in which the loops of a joint move; None where it is in no loop, or none is planar."""
     for group, found in zip(linkage.structure.loop_groups, linkage.classes, strict=True):
-        if column not in group.joints or found.plane is None:
-            continue
-        for number in group.joints:
-            joint = linkage.solved_joints[number]
-            for place, name in enumerate(joint.movements):
-                for element in MOVEMENTS[name].elements:
-                    if element.kind == "rotate":
-                        return np.asarray(joint.frames_1, float)[place][:3, element.axis]
+        if column in group.joints and found.plane is not None:
+            joints = [linkage.solved_joints[number] for number in group.joints]
+            return np.asarray(normal_of_turns(joints, found.plane), float)
     return None
 
 

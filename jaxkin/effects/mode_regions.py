@@ -129,7 +129,7 @@ def mode_regions(modes: AssemblyModes, ranges: Mapping[str, Sequence[float] | np
         raise ValueError("there are no modes: the loops do not close for these inputs")
     mechanism = modes.motion.mechanism
     grid = _grid(modes, ranges)
-    loop_groups = plan_drive(mechanism.linkage, tuple(modes.inputs)).loop_groups
+    loop_groups = plan_drive(mechanism.linkage.in_space, tuple(modes.inputs)).loop_groups
     _check_idle(mechanism, loop_groups)
     first, second = grid.values()
     every = dict(zip(grid, map(np.ravel, np.meshgrid(first, second, indexing="ij")), strict=True))

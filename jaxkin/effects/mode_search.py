@@ -143,7 +143,8 @@ def find_modes(
     labels = group_rows(_unwrapped(loop_group, loops, poses), same)
     rows = _scaled_rows(loop_group, loops, poses[_first_of(labels)])
     home = rows[:1] if reached is not None else np.zeros((1, rows.shape[1]))
-    free = [loops.columns.index(loop_group.columns[column]) for column in system.free]
+    driven = [loop_group.columns[column] for column in system.driven]
+    free = [column for column, place in enumerate(loops.columns) if place not in driven]
     entries = features.of(np.vstack([home, rows]), free)
     labels = group_rows(entries[1:], same)[labels]
     order = np.argsort([np.linalg.norm(entries[1:][k] - entries[0]) for k in _first_of(group_rows(entries[1:], same))])

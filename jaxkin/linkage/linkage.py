@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import NamedTuple
 
 import jax
+import numpy as np
+from jaxtyping import Array, Float
 
+from jaxkin._traced import traced
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.loop_class import LoopClass, loop_classes
@@ -36,7 +40,8 @@ class Linkage:
     structure: Structure
     classes: tuple[LoopClass, ...]
     """The class of each loop group of `structure`, found from the numbers of the joints when the linkage was made.
-    Loops that leave their class later do not close, and the statuses of their poses say so."""
+    Loops that leave their class later do not close, and the statuses of their poses say so. `in_space` is for numbers
+    and poses that may leave a plane that joints do not keep to."""
     ideal: tuple[Joint, ...] = ()
     """The nearest joints whose loops close along a motion, if the loops of `joints` close in the assembled pose only
     because the joints disagree by more than rounding; else empty. Poses are found with the joints in `ideal`, and then
@@ -60,6 +65,28 @@ class Linkage:
         """Replace the joints in the same structure, and find loop classes anew; traced joints keep the classes."""
         classes = loop_classes(ideal or joints, self.structure) or self.classes
         return replace(self, joints=tuple(joints), ideal=tuple(ideal), classes=classes)
+
+    @cached_property
+    def in_space(self) -> Linkage:
+        """The same linkage without loops that are solved in a plane which their joints could leave."""
+        if all(each.decoupled_plane is None for each in self.classes):
+            return self
+        return replace(self, classes=tuple(each._replace(decoupled_plane=None) for each in self.classes))
+
+    def at(self, displacements: Sequence[Float[Array, "poses _"]]) -> Linkage:
+        """Return this linkage for poses that keep to the planes of its loops, and `in_space` for others.
+
+        `displacements` are those of all joints, of poses that sweeps did not find, too. Those that JAX traces may leave
+        a plane.
+        """
+        for loop_group, found in zip(self.structure.loop_groups, self.classes, strict=True):
+            if found.decoupled_plane is None:
+                continue
+            every = [(joint, k) for joint in loop_group.joints for k in range(self.joints[joint].freedoms)]
+            resting = [place for column, place in enumerate(every) if column not in found.decoupled_plane]
+            if traced(displacements) or any(np.nan_to_num(displacements[joint][:, k]).any() for joint, k in resting):
+                return self.in_space
+        return self
 
     @property
     def solved_joints(self) -> tuple[Joint, ...]:

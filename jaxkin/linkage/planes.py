@@ -10,6 +10,7 @@ A loop whose joints generate a displacement subgroup needs as many equations as 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -50,6 +51,21 @@ def level(joints: Sequence[Joint], normal: np.ndarray) -> bool:
     origins = np.concatenate([side[:, :3, 3] for joint in joints for side in (joint.frames_1, joint.frames_2)])
     shifts = [(np.asarray(joint.frames_1) - np.asarray(joint.frames_2))[:, :3, 3] @ normal for joint in joints]
     return bool(np.max(np.abs(np.concatenate(shifts))) <= PARALLEL * np.ptp(origins, axis=0).max(initial=0.0))
+
+
+def normal_of_turns(joints: Sequence[Joint], columns: Sequence[int]) -> Any:
+    """Return the axis of the first turn among some columns, on part 1 of its joint (3,), traced where that is traced.
+
+    Columns are numbered from 0 through all coordinates of `joints`. Of the columns of a plane it is the normal.
+    """
+    column = 0
+    for joint in joints:
+        for frame, name in enumerate(joint.movements):
+            for element in MOVEMENTS[name].elements:
+                if element.kind == "rotate" and column + element.coordinate in columns:
+                    return joint.frames_1[frame][:3, element.axis]
+            column += len(MOVEMENTS[name].coordinates)
+    raise ValueError("no coordinate of a plane turns")
 
 
 def turn_about_one_direction(joints: Sequence[Joint]) -> bool:

@@ -92,8 +92,8 @@ def plan_drive(linkage: Linkage, keys: tuple[str, ...]) -> DrivePlan:
     key = keys, dtypes.canonicalize_dtype(float), getattr(jax.config, "jax_default_device", None)
     if key in (kept := _kept(linkage)):
         return kept[key]
-    if traced(linkage):
-        return _plan_drive(linkage, keys)
+    if traced(linkage):  # changes of the numbers may leave a plane
+        return _plan_drive(linkage.in_space, keys)
     plan = _plan_drive(linkage, keys)
     on_device = jax.device_put([loop_group.joints for loop_group in plan.loop_groups])
     if traced(on_device):

@@ -92,9 +92,10 @@ class Motion:
     def sigma_min(self) -> Float[Array, " poses"]:
         """How near to singular each pose is: the smallest singular value of the closure Jacobian not always zero.
 
-        For radians and characteristic lengths, of the worst loop group; infinite where no loop is driven. A pose
-        is right to about its residual over this value, and derivatives grow as one over it: at a dead point or a change
-        point, where it is zero, a closed loop is accurate to the square root of rounding only.
+        Of the equations that are solved, for radians and characteristic lengths; of the worst loop group, infinite
+        where no loop is driven. A pose is right to about its residual over this value, and derivatives grow as one over
+        it: at a dead point or a change point, where it is zero, a closed loop is accurate to the square root of
+        rounding only.
         """
         from jaxkin.mechanism.singularity import sigma_min
 

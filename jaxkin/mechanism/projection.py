@@ -103,9 +103,7 @@ def project(
     solved, found = [], []
     for number, loop_group in enumerate(linkage.structure.loop_groups):
         inside = tuple(place for place in held.values() if place[0] in loop_group.joints)
-        # what is given may be out of a plane in which sweeps stay
-        loop_class = linkage.classes[number]._replace(decoupled_plane=None)
-        system, columns = group_system(linkage, loop_group, inside, loop_class)
+        system, columns = group_system(linkage, loop_group, inside, linkage.in_space.classes[number])
         joints = group_joints(linkage, linkage.solved_joints, loop_group)
         begun = padded([xp.where(finite, every[joint][:, k], 0.0) for joint, k in columns])
         found.append(

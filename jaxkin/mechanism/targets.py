@@ -19,12 +19,12 @@ from jaxkin._arguments import text
 from jaxkin._memory import once_for_each
 from jaxkin._names import nearest
 from jaxkin._traced import traced
-from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.pairs import free, planar
 from jaxkin.linkage.coupled import coupled
 from jaxkin.linkage.linkage import Linkage
+from jaxkin.linkage.planes import normal_of_turns
 from jaxkin.topology.structure import structure
 
 if TYPE_CHECKING:
@@ -173,12 +173,7 @@ def _normal(linkage: Linkage, joints: Iterable[Joint]) -> Any:
     numbers = {linkage.joints.index(joint) for joint in joints}
     for group, found in zip(linkage.structure.loop_groups, linkage.classes, strict=True):
         if numbers <= set(group.joints) and found.plane is not None:
-            for number in group.joints:
-                joint = linkage.solved_joints[number]
-                for frame, name in enumerate(joint.movements):
-                    for element in MOVEMENTS[name].elements:
-                        if element.kind == "rotate":
-                            return joint.frames_1[frame][:3, element.axis]
+            return normal_of_turns([linkage.solved_joints[number] for number in group.joints], found.plane)
     return None
 
 

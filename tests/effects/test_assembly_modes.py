@@ -27,6 +27,20 @@ def same_angles(found, wanted):
 
 
 @pytest.mark.long
+@pytest.mark.parametrize("pins", [1, 2, 4])
+def test_pins_that_slide_idly_hide_no_mode(pins):
+    """The slides are no columns of loops that are solved in their plane, but idle freedoms all the same."""
+    points, ends = [(0, 0, 0), (1, 0.3, 0), (3, 2, 0), (4, 0, 0)], ["ga", "ab", "bc", "cg"]
+    made = [jk.revolute] * (4 - pins) + [jk.cylindrical] * pins
+    joints = [
+        make(name, *pair, point=point, axis=(0, 0, 1))
+        for make, name, pair, point in zip(made, "ABCD", ends, points, strict=True)
+    ]
+    mechanism = jk.Mechanism.build(joints=joints, fixed=["g"])
+    modes = jk.assembly_modes(mechanism, {"A.phi": 0.3})
+    assert modes.complete and len(modes.motion) == 2
+
+
 def test_a_fourbar_has_two_modes_and_each_can_be_driven():
     theta = np.linspace(0.0, 2 * np.pi, 13)
     mechanism = planar_fourbar(1.0)

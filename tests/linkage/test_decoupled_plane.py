@@ -2,51 +2,12 @@
 
 from dataclasses import replace
 
-import jax
-import jax.numpy as jnp
 import numpy as np
 import pytest
 
 import jaxkin as jk
 from jaxkin.geometry.pose import rotation, unit
-
-Z = (0, 0, 1)
-IN_PLANE = {"boom.phi", "foot.phi", "cylinder.z", "eye.phi"}
-STROKES = np.linspace(-1.0, 1.5, 41)
-
-
-def crane(height=0.0, last=None):
-    """A boom that a hydraulic cylinder from (3, -4) lifts at its point (4, 0)."""
-    along = unit(np.array([1.0, 4.0, 0.0]))
-    joints = [
-        jk.revolute("boom", "ground", "boom", point=(0, 0, 0), axis=Z),
-        jk.revolute("foot", "ground", "tube", point=(3, -4, height), axis=Z),
-        jk.cylindrical("cylinder", "tube", "rod", point=(3, -4, height), axis=along),
-        last or jk.revolute("eye", "rod", "boom", point=(4, 0, height), axis=Z),
-    ]
-    return jk.Mechanism.build(joints=joints, fixed=["ground"])
-
-
-def boom_angle(stroke):
-    """By the law of cosines: sides 4 (boom) and 5 (ground) about the hinge, and the cylinder of length sqrt(17) + z."""
-    length = np.sqrt(17.0) + stroke
-    return np.arccos((16 + 25 - length**2) / (2 * 4 * 5)) - np.arctan2(4, 3)
-
-
-def in_space(mechanism):
-    """The same mechanism, solved by six equations a loop (four where all turn about one direction)."""
-    linkage = mechanism.linkage
-    classes = tuple(each._replace(plane=None, decoupled_plane=None) for each in linkage.classes)
-    return replace(mechanism, linkage=replace(linkage, classes=classes))
-
-
-def in_plane(mechanism):
-    """The names of the coordinates in the plane of the only loop group; None where there is no plane."""
-    (found,), (loop_group,) = mechanism.linkage.classes, mechanism.structure.loop_groups
-    joints = [mechanism.all_joints[joint] for joint in loop_group.joints]
-    names = [f"{joint.name}.{name}" for joint in joints for name in joint.coordinates]
-    assert found.plane is None
-    return None if found.decoupled_plane is None else {names[column] for column in found.decoupled_plane}
+from reference.cranes import IN_PLANE, STROKES, Z, boom_angle, crane, drawn, in_plane, in_space
 
 
 def test_a_hydraulic_cylinder_turns_in_its_plane_and_its_rod_does_not():
@@ -147,20 +108,6 @@ def test_other_joints_leave_loops_in_space(last):
     assert in_plane(crane(last=last)) is None
 
 
-def test_a_drive_out_of_the_plane_is_solved_in_space():
-    """The pin slides in both holes of the boom by what is asked for; the boom rests."""
-    pin = jk.cylindrical("eye", "rod", "boom", point=(4, 0, 0), axis=Z)
-    foot = jk.cylindrical("foot", "ground", "tube", point=(3, -4, 0), axis=Z)
-    first, _, cylinder, _ = crane().all_joints
-    mechanism = jk.Mechanism.build(joints=[first, foot, cylinder, pin], fixed=["ground"])
-    assert in_plane(mechanism) == IN_PLANE
-    slide = np.linspace(0, 1, 5)
-    motion = mechanism.sweep({"eye.z": slide, "cylinder.z": np.zeros(5)})
-    assert np.all(np.asarray(motion.closed))
-    np.testing.assert_allclose(motion.coordinates["foot"][:, 0], -slide, atol=1e-12)
-    np.testing.assert_allclose(motion.coordinates["boom"][:, 0], 0.0, atol=1e-12)
-
-
 def test_a_coupling_in_the_plane_leaves_the_plane_as_it_is():
     """A wheel on the ground turns twice as far as the boom that the cylinder lifts."""
     wheel = jk.revolute("wheel", "ground", "wheel", point=(-3, 0, 0), axis=Z)
@@ -189,83 +136,22 @@ def test_placed_and_numbered_anywhere_the_plane_is_the_same():
     np.testing.assert_allclose(angle, boom_angle(STROKES), atol=1e-12)  # lengths of 300 about one of 5
 
 
-def test_poses_that_are_given_out_of_the_plane_are_projected_there():
-    along = unit(np.array([1.0, 4.0, 0.0]))
-    swivel = jk.revolute("swivel", "rod", "head", point=(4, 0, 0), axis=along)
-    eye = jk.revolute("eye", "head", "boom", point=(4, 0, 0), axis=Z)
-    mechanism = jk.Mechanism.build(joints=[*crane().all_joints[:3], swivel, eye], fixed=["ground"])
-    found = jk.project(mechanism, {"cylinder": np.array([[0.0, 0.4]]), "swivel": np.array([-0.4])})
-    assert float(found.distance[0]) < 1e-9  # the rod turned by 0.4 closes the loop
-    np.testing.assert_allclose(found.motion.coordinates["cylinder"], [[0.0, 0.4]], atol=1e-9)
-
-
-def test_gradients_are_those_in_space():
-    mechanism = crane()
-
-    def squares(mechanism):
-        return jnp.sum(mechanism.sweep({"cylinder.z": STROKES}).coordinates["boom"] ** 2)
-
-    one, other = (jax.grad(squares)(each).linkage.joints for each in (mechanism, in_space(mechanism)))
-    plane = [0, 1]  # changes that keep the loops closed: hinges moved in the plane, on both sides
-    for a, b in zip(one, other, strict=True):
-        for side in ("frames_1", "frames_2"):
-            mine, theirs = (np.asarray(getattr(each, side))[:, plane, 3] for each in (a, b))
-            np.testing.assert_allclose(mine, theirs, rtol=1e-9, atol=1e-9)
-    assert np.abs(np.asarray(one[1].frames_1)[:, :2, 3]).max() > 0.1
-
-
 def test_a_freedom_out_of_the_plane_that_is_not_idle_is_not_left_out():
     """Tube and boom hang in swivels beside their hinges: they tilt together, and the eye then comes nearer."""
     along = unit(np.array([1.0, 4.0, 0.0]))
+    slides = [
+        jk.prismatic("slide", "tube", "rod", axis=along),
+        jk.cylindrical("slide", "tube", "rod", point=(3, -4, 0), axis=along),  # beside a rod that spins idly
+    ]
     joints = [
         jk.revolute("boom", "ground", "ring", point=(0, 0, 0), axis=Z),
         jk.revolute("tilt", "ring", "boom", point=(0, 0, 0), axis=unit(np.array([4.0, 3.0, 0.0]))),
         jk.revolute("foot", "ground", "other ring", point=(3, -4, 0), axis=Z),
         jk.revolute("tilt of tube", "other ring", "tube", point=(3, -4, 0), axis=unit(np.array([-4.0, 1.0, 0.0]))),
-        jk.prismatic("slide", "tube", "rod", axis=along),
         jk.spherical("eye", "rod", "boom", point=(4, 0, 0)),
     ]
-    assert in_plane(jk.Mechanism.build(joints=joints, fixed=["ground"])) is None
-
-
-def drawn(rng):
-    """A four-bar, or a crane, of any joints: mechanism and drive.
-
-    Hinges, pins, balls, crosses and swivels at any height; tubes, and plates across the plane, where parts slide.
-    """
-    places = rng.normal(size=(4, 2)) * 2
-
-    def level(place):
-        return (*place, rng.choice([0.0, 0.0, rng.normal()]))
-
-    def hinge(name, one, other, place):
-        point, angle = level(place), rng.uniform(0, np.pi)
-        across = (np.cos(angle), np.sin(angle), 0.0)
-        match rng.choice(["hinge", "pin", "ball", "cross", "swivel"], p=[0.4, 0.2, 0.2, 0.1, 0.1]):
-            case "hinge":
-                return [jk.revolute(name, one, other, point=point, axis=Z)]
-            case "pin":
-                return [jk.cylindrical(name, one, other, point=point, axis=Z)]
-            case "ball":
-                return [jk.spherical(name, one, other, point=point)]
-            case "cross":
-                return [jk.universal(name, one, other, point=point, axis1=Z, axis2=across)]
-        swivel = jk.revolute(f"{name} swivel", f"{name} ring", other, point=point, axis=across)
-        return [jk.revolute(name, one, f"{name} ring", point=point, axis=Z), swivel]
-
-    if rng.integers(2):
-        ends = [("ground", "a"), ("a", "b"), ("b", "c"), ("c", "ground")]
-        joints = [hinge(name, *pair, place) for name, pair, place in zip("ABCD", ends, places, strict=True)]
-        drive = "A"
-    else:
-        along = (*unit(places[2] - places[1]), 0.0)
-        slide = jk.cylindrical("S", "tube", "rod", point=level(places[1]), axis=along)
-        if rng.integers(2):
-            slide = jk.planar("S", "tube", "rod", point=level(places[1]), normal=np.cross(along, Z))
-        ends = [("ground", "boom"), ("ground", "tube"), ("rod", "boom")]
-        joints = [hinge(name, *pair, place) for name, pair, place in zip("ABC", ends, places, strict=False)]
-        joints, drive = [*joints, [slide]], "S"
-    return jk.Mechanism.build(joints=[each for some in joints for each in some], fixed=["ground"]), drive
+    for slide in slides:
+        assert in_plane(jk.Mechanism.build(joints=[*joints, slide], fixed=["ground"])) is None
 
 
 @pytest.mark.long

@@ -19,9 +19,10 @@ from jaxkin.effects.forces.screws import places, velocity_at
 from jaxkin.effects.forces.wrenches import nan_unless_closed
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.effects.rates import velocities
-from jaxkin.geometry.movements import MOVEMENTS, is_length
+from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.units import METRES
 from jaxkin.linkage.coordinates import coordinate
+from jaxkin.linkage.planes import normal_of_turns
 from jaxkin.mechanism.motion import Motion
 
 PASSES = 1e-9
@@ -134,12 +135,7 @@ def _normal(motion: Motion, number: int) -> Float[Array, "3"] | None:
     """The normal of the plane in which the loops of a joint move, as assembled; None where they are spatial."""
     linkage = motion.mechanism.linkage
     for group, found in zip(linkage.structure.loop_groups, linkage.classes, strict=True):
-        if number not in group.joints or found.plane is None:
-            continue
-        for each in group.joints:
-            joint = linkage.joints[each]
-            for frame, movement in enumerate(joint.movements):
-                for element in MOVEMENTS[movement].elements:
-                    if element.kind == "rotate":
-                        return jnp.asarray(joint.frames_1[frame][:3, element.axis], float)
+        columns = found.plane if found.plane is not None else found.decoupled_plane
+        if number in group.joints and columns is not None:
+            return jnp.asarray(normal_of_turns([linkage.joints[each] for each in group.joints], columns), float)
     return None
