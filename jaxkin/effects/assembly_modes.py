@@ -279,6 +279,7 @@ def _combined(
         jnp.asarray(status),
         jnp.asarray(residual, float),
         options=starts.options,
+        swept=False,
     )
     complete = all(found.by_formulas for found in searched)
     counts = [found.counts if not found.by_formulas else None for found in searched]

@@ -255,7 +255,7 @@ def _limits(mechanism: Mechanism, name: str, place: Place, lower: Limit, upper: 
     rows = tuple(jnp.asarray(np.stack([pose[each] for pose in poses]), float) for each in mechanism.joints)
     residual = jnp.asarray([_residual(mechanism, pose) for pose in poses], float)
     inputs = {name: rows[joint][:, k]}
-    motion = Motion(mechanism, inputs, rows, jnp.zeros(len(poses), jnp.int32), residual)
+    motion = Motion(mechanism, inputs, rows, jnp.zeros(len(poses), jnp.int32), residual, swept=False)
     unit = mechanism.unit if _is_length(mechanism, place) else "rad"
     return Limits(name, lower, upper, full_turn, motion, unit)
 

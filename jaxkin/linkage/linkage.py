@@ -8,10 +8,7 @@ from functools import cached_property
 from typing import NamedTuple
 
 import jax
-import numpy as np
-from jaxtyping import Array, Float
 
-from jaxkin._traced import traced
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.loop_class import LoopClass, loop_classes
@@ -73,20 +70,11 @@ class Linkage:
             return self
         return replace(self, classes=tuple(each._replace(decoupled_plane=None) for each in self.classes))
 
-    def at(self, displacements: Sequence[Float[Array, "poses _"]]) -> Linkage:
-        """Return this linkage for poses that keep to the planes of its loops, and `in_space` for others.
-
-        `displacements` are those of all joints, of poses that sweeps did not find, too. Those that JAX traces may leave
-        a plane.
-        """
-        for loop_group, found in zip(self.structure.loop_groups, self.classes, strict=True):
-            if found.decoupled_plane is None:
-                continue
-            every = [(joint, k) for joint in loop_group.joints for k in range(self.joints[joint].freedoms)]
-            resting = [place for column, place in enumerate(every) if column not in found.decoupled_plane]
-            if traced(displacements) or any(np.nan_to_num(displacements[joint][:, k]).any() for joint, k in resting):
-                return self.in_space
-        return self
+    @cached_property
+    def whole(self) -> Linkage:
+        """The same linkage with loops `in_space`, none of which is cut at a ball: for poses in which rods have spun."""
+        classes = (each._replace(spins=(), cut_at_balls=False) for each in self.in_space.classes)
+        return replace(self, classes=tuple(classes))
 
     @property
     def solved_joints(self) -> tuple[Joint, ...]:

@@ -66,7 +66,8 @@ class KnownMotion(NamedTuple):
 
 def known_motion(motion: Motion) -> tuple[KnownDrive, KnownMotion]:
     """Collect what the derivatives of a motion follow from."""
-    plan = plan_drive(motion.mechanism.linkage.at(motion.displacements), tuple(motion.inputs))
+    linkage = motion.mechanism.linkage
+    plan = plan_drive(linkage if motion.swept else linkage.whole, tuple(motion.inputs))
     names = list(plan.driven)
     loop_groups = tuple(
         KnownLoopGroup(each.system, each.columns, tuple(names[i] for i in each.inputs), each.given is not None)

@@ -49,6 +49,9 @@ class Motion:
     """Square root of Eq. 12, lengths over the characteristic length of the loops."""
     options: SolverOptions = field(default_factory=SolverOptions)
     """How the poses were found; effects of the motion use the same. Static data to JAX, without a traced tolerance."""
+    swept: bool = True
+    """Whether idle parts are where sweeps leave them: rods between balls without spin, and at rest what could leave the
+    plane of its loops. False for poses found otherwise. Static data to JAX."""
 
     def __len__(self) -> int:
         return self.status.shape[0]
@@ -228,5 +231,5 @@ def tally(
 
 
 jax.tree_util.register_dataclass(
-    Motion, data_fields=["mechanism", "inputs", "displacements", "status", "residual"], meta_fields=["options"]
+    Motion, data_fields=["mechanism", "inputs", "displacements", "status", "residual"], meta_fields=["options", "swept"]
 )

@@ -118,7 +118,7 @@ def project(
         status = in_doubt(status)
     names = held or coordinates(linkage, mechanism.motors or _first(mechanism))
     inputs = {name: displacements[joint][:, k] for name, (joint, k) in names.items()}
-    motion = with_limited(Motion(mechanism, inputs, displacements, status, residual, options=options))
+    motion = with_limited(Motion(mechanism, inputs, displacements, status, residual, options=options, swept=False))
     return Projection(motion, distance, best)
 
 

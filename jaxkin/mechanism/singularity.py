@@ -49,7 +49,8 @@ def singular_report(motion: Motion, order: int) -> list[str]:
 def sigma_min(motion: Motion) -> Float[Array, " poses"]:
     """Compute the smallest singular value of a motion: see `Motion.sigma_min`."""
     linkage = motion.mechanism.linkage
-    linkage = linkage.in_space if traced(linkage) else linkage.at(motion.displacements)
+    if traced(linkage) or not motion.swept:
+        linkage = linkage.in_space
     driven = [coordinate(linkage, name) for name in motion.inputs]
     least = jnp.full(len(motion), jnp.inf, motion.residual.dtype)
     for number, (loop_group, loop_class) in enumerate(zip(linkage.structure.loop_groups, linkage.classes, strict=True)):

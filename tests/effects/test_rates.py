@@ -8,6 +8,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
+import jaxkin as jk
 from jaxkin.effects.rates import accelerations, velocities
 from jaxkin.solve.status import Status
 from reference.mechanisms import cardan_shafts, planar_fourbar, rssr_linkage, slider_crank
@@ -105,3 +106,22 @@ def test_bad_rates():
         velocities(motion, {"Q": 1.0})
     with pytest.raises(ValueError, match="no part 'rod'"):
         velocities(motion, {"A": 1.0}).points("rod", (0, 0, 0))
+
+
+def test_rates_of_poses_in_which_a_rod_has_spun():
+    """A rod of an RSSR linkage whose point is pulled to a place: the rocker still turns about its hinge."""
+    joints = [
+        jk.revolute("A", "ground", "crank", point=(0, 0, 0), axis=(0, 0, 1)),
+        jk.spherical("B", "crank", "rod", point=(1, 0, 0)),
+        jk.spherical("C", "rod", "rocker", point=(3, 2, 0.5)),
+        jk.revolute("D", "rocker", "ground", point=(4, 0, 0), axis=(0.2, 1, 0.1)),
+    ]
+    mechanism = jk.Mechanism.build(joints=joints, fixed=["ground"])
+    motion = jk.inverse(mechanism, {jk.point("rod", (2, 1, 0.2)): np.array([[1.9, 1.1, 0.25]])}).motion
+    assert np.all(np.asarray(motion.closed)) and np.abs(motion.coordinates["B"]).max() > 0.5
+    rates = jk.velocities(motion, {"A.phi": 1.0})
+    np.testing.assert_allclose(rates.points("rocker", (4, 0, 0)), 0.0, atol=1e-12)
+    # as much as in a sweep through that pose, in which the rod does not spin
+    swept = mechanism.sweep({"A": np.concatenate([[0.0], motion.inputs["A.phi"]])})
+    expected = jk.velocities(swept, {"A.phi": 1.0}).coordinates["D"][1:]
+    np.testing.assert_allclose(rates.coordinates["D"], expected, atol=1e-9)

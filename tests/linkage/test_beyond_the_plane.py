@@ -71,6 +71,8 @@ def test_rates_of_poses_out_of_the_plane_are_those_in_space():
     expected = jk.velocities(replace(motion, mechanism=in_space(mechanism)), {"A.phi": 1.0})
     for one, other in zip(found.displacements, expected.displacements, strict=True):
         np.testing.assert_allclose(one, other, atol=1e-12)
+    # the rocker turns about the point that its ball on the ground holds
+    np.testing.assert_allclose(found.points("rocker", points["D"]), 0.0, atol=1e-9)
     np.testing.assert_allclose(motion.sigma_min, replace(motion, mechanism=in_space(mechanism)).sigma_min, rtol=1e-9)
 
 

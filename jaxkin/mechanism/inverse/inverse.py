@@ -166,7 +166,8 @@ def _motion(
     status = np.where(closure <= CLOSED, Status.CLOSED.value, Status.UNREACHABLE.value)
     inputs_of = {name: q[:, problem.names.index(name)] for name in inputs}
     rows = tuple(jnp.split(q, split, axis=1))
-    return with_limited(Motion(mechanism, inputs_of, rows, jnp.asarray(status), jnp.asarray(closure), SolverOptions()))
+    found = jnp.asarray(status), jnp.asarray(closure)
+    return with_limited(Motion(mechanism, inputs_of, rows, *found, SolverOptions(), swept=False))
 
 
 def _at_limits(x: Float[np.ndarray, "poses columns"], bounds: Bounds) -> Bool[np.ndarray, "poses columns"]:
