@@ -6,6 +6,7 @@ from itertools import pairwise
 import jax
 import jax.numpy as jnp
 import numpy as np
+import pytest
 
 import jaxkin as jk
 from jaxkin.geometry.pose import rotation, unit
@@ -57,6 +58,7 @@ def test_lengths_that_jax_traces_may_leave_the_plane():
     assert np.abs(np.asarray(height(0.0))[:, 2]).min() > 0.5
 
 
+@pytest.mark.long
 def test_rates_of_poses_out_of_the_plane_are_those_in_space():
     """A crank, and a coupler and a rocker on three balls, of which a point is pulled out of the plane."""
     points = {"B": (1, 0, 0), "C": (3, 2, 0), "D": (4, 0, 0)}
@@ -99,11 +101,13 @@ def test_all_assembly_modes_are_found_with_an_idle_rod():
     assert not modes.complete
 
 
+@pytest.mark.long
 def test_the_transmission_angle_is_that_in_the_plane_at_any_height():
     one, other = (jk.transmission(crane(height).sweep({"cylinder.z": STROKES}), "boom").angle for height in (0.0, 2.5))
     np.testing.assert_allclose(one, other, atol=1e-9)
 
 
+@pytest.mark.long
 def test_gradients_are_those_in_space():
     mechanism = crane()
 
