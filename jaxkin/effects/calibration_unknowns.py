@@ -21,7 +21,6 @@ from jaxkin.dimensions.lengths import find_length, length_now
 from jaxkin.geometry.pose import frame
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.linkage.planes import normal_of_turns
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.targets import Target
 
@@ -116,7 +115,7 @@ def unknowns_of(
         joint = mechanism.all_joints[column]
         if side is None and len(joint.movements) > 1:
             raise ValueError(f"frames: {place!r} has several frames: say on which part, as {(joint.parts[0], place)!r}")
-        normal = _normal(mechanism.linkage, column)
+        normal = mechanism.linkage.normal([column])
         known = COMPONENTS if normal is None else IN_PLANE
         rows = np.eye(3) if normal is None or _is_z(normal) else frame(np.zeros(3), normal)[:3, :3].T
         found.append(
@@ -164,15 +163,6 @@ def _components(place: Any, asked: Any, known: Sequence[str]) -> tuple[int, ...]
                 f"frames: {place!r} can change by {', '.join(known)}{planar}, got {name!r}{nearest(str(name), known)}"
             )
     return tuple(COMPONENTS.index(name) for name in dict.fromkeys(chosen))
-
-
-def _normal(linkage: Linkage, column: int) -> Float[np.ndarray, "3"] | None:
-    """The normal of the plane in which the loops of a joint move; None where it is in no loop, or none is planar."""
-    for group, found in zip(linkage.structure.loop_groups, linkage.classes, strict=True):
-        if column in group.joints and found.plane is not None:
-            joints = [linkage.solved_joints[number] for number in group.joints]
-            return np.asarray(normal_of_turns(joints, found.plane), float)
-    return None
 
 
 def _is_z(normal: Float[np.ndarray, "3"]) -> bool:

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import jax
 
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.loop_class import LoopClass, loop_classes
+from jaxkin.linkage.planes import normal_of_turns
 from jaxkin.topology.structure import Structure
 
 
@@ -75,6 +76,18 @@ class Linkage:
         """The same linkage with loops `in_space`, none of which is cut at a ball: for poses in which rods have spun."""
         classes = (each._replace(spins=(), cut_at_balls=False) for each in self.in_space.classes)
         return replace(self, classes=tuple(classes))
+
+    def normal(self, joints: Collection[int], *, decoupled: bool = False) -> Any:
+        """Return the normal (3,) of the plane in which the loops of some joints move, in the assembled pose.
+
+        None where no loop group holds them all, or where it has no plane. Planes that joints could leave count where
+        they are `decoupled`. It is traced where the frames are.
+        """
+        for loop_group, found in zip(self.structure.loop_groups, self.classes, strict=True):
+            columns = found.decoupled_plane if decoupled and found.plane is None else found.plane
+            if columns is not None and set(joints) <= set(loop_group.joints):
+                return normal_of_turns([self.solved_joints[number] for number in loop_group.joints], columns)
+        return None
 
     @property
     def solved_joints(self) -> tuple[Joint, ...]:

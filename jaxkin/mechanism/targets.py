@@ -24,7 +24,6 @@ from jaxkin.joints.joint import Joint
 from jaxkin.joints.pairs import free, planar
 from jaxkin.linkage.coupled import coupled
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.linkage.planes import normal_of_turns
 from jaxkin.topology.structure import structure
 
 if TYPE_CHECKING:
@@ -152,9 +151,9 @@ def _joint(mechanism: Mechanism, target: Target) -> Joint:
         raise ValueError(f"{target.joint}: there is no part {target.part!r}{nearest(target.part, linkage.parts)}")
     if target.part in linkage.fixed:
         raise ValueError(f"{target.joint}: the part {target.part!r} is fixed, and no target moves it")
-    held = [joint for joint in linkage.joints if target.part in joint.parts]
+    held = [number for number, joint in enumerate(linkage.joints) if target.part in joint.parts]
     at = middle_of_joints(linkage, target.part) if target.at is None else target.at
-    normal = _normal(linkage, held)
+    normal = linkage.normal(held)
     parts = (linkage.fixed[0], target.part)
     name = target.joint
     made = free(name, *parts, point=at) if normal is None else planar(name, *parts, point=at, normal=normal)
@@ -166,15 +165,6 @@ def middle_of_joints(linkage: Linkage, part: str) -> Any:
     held = [joint for joint in linkage.joints if part in joint.parts]
     xp = jnp if traced(held) else np
     return xp.mean(xp.stack([xp.asarray(joint.frames_1, float)[0, :3, 3] for joint in held]), axis=0)
-
-
-def _normal(linkage: Linkage, joints: Iterable[Joint]) -> Any:
-    """Find the normal of the plane in which all these joints move their parts; None where there is no such plane."""
-    numbers = {linkage.joints.index(joint) for joint in joints}
-    for group, found in zip(linkage.structure.loop_groups, linkage.classes, strict=True):
-        if numbers <= set(group.joints) and found.plane is not None:
-            return normal_of_turns([linkage.solved_joints[number] for number in group.joints], found.plane)
-    return None
 
 
 def extent(mechanism: Mechanism) -> float:

@@ -22,7 +22,6 @@ from jaxkin.effects.rates import velocities
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.units import METRES
 from jaxkin.linkage.coordinates import coordinate
-from jaxkin.linkage.planes import normal_of_turns
 from jaxkin.mechanism.motion import Motion
 
 PASSES = 1e-9
@@ -112,7 +111,7 @@ def transmission(motion: Motion, output: str, *, joint: str | None = None) -> Tr
     force = drive_forces(motion, applied=load).forces[name]
     found = reactions(motion, applied=load)
     push = found.forces[through]
-    if (normal := _normal(motion, number)) is not None:
+    if (normal := mechanism.linkage.normal([number], decoupled=True)) is not None:
         # links lie side by side, and what that puts along their pins is shared by stiffness, and moves nothing
         normal = jnp.einsum("pij,j->pi", motion.transforms[part][:, :3, :3], normal)
         push = push - jnp.sum(push * normal, axis=1, keepdims=True) * normal
@@ -129,13 +128,3 @@ def transmission(motion: Motion, output: str, *, joint: str | None = None) -> Tr
     ratio = nan_unless_closed(motion, speeds.displacements[number][:, index])
     angle = jnp.where(passes, jnp.arcsin(jnp.minimum(sine, 1.0)), jnp.nan)
     return Transmission(name, full, through, ratio, -1.0 / force, angle)
-
-
-def _normal(motion: Motion, number: int) -> Float[Array, "3"] | None:
-    """The normal of the plane in which the loops of a joint move, as assembled; None where they are spatial."""
-    linkage = motion.mechanism.linkage
-    for group, found in zip(linkage.structure.loop_groups, linkage.classes, strict=True):
-        columns = found.plane if found.plane is not None else found.decoupled_plane
-        if number in group.joints and columns is not None:
-            return jnp.asarray(normal_of_turns([linkage.joints[each] for each in group.joints], columns), float)
-    return None
