@@ -14,6 +14,7 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
+from jaxkin.geometry.characteristic_length import centroid_and_length
 from jaxkin.geometry.rigid import inverse, product
 from jaxkin.linkage.coordinates import resolve
 from jaxkin.linkage.joint_motion import joint_motion
@@ -40,9 +41,7 @@ def closure_gaps(motion: Motion) -> Float[Array, " poses"]:
     for loop_group in mechanism.structure.loop_groups:
         joints = [mechanism.all_joints[joint] for joint in loop_group.joints]
         origins = jnp.concatenate([jnp.asarray(joint.frames_1)[:, :3, 3] for joint in joints])
-        centre = origins.mean(axis=0)
-        spread = jnp.mean(jnp.sum((origins - centre) ** 2, axis=1))
-        size = jnp.sqrt(jnp.where(spread > 0, spread, 1.0))
+        centre, size = centroid_and_length(origins)
         motions = {joint: joint_motion(mechanism.all_joints[joint], held[joint]) for joint in loop_group.joints}
         for loop in loop_group.loops:
             along = [motions[joint] if sign > 0 else inverse(motions[joint]) for joint, sign in loop]

@@ -12,6 +12,7 @@ import numpy as np
 
 from jaxkin._files import whole
 from jaxkin.design.objective import Objective
+from jaxkin.geometry.characteristic_length import centroid_and_length
 from jaxkin.geometry.movements import is_length
 from jaxkin.linkage.record import as_record, from_record
 from jaxkin.mechanism.mechanism import Mechanism
@@ -205,7 +206,7 @@ def _steepest(motion: Motion) -> float:
     joints = motion.mechanism.all_joints
     pace = np.sqrt(sum(np.diff(np.asarray(values)) ** 2 for values in motion.inputs.values()))
     origins = np.concatenate([np.asarray(joint.frames_1)[:, :3, 3] for joint in joints])
-    size = float(np.sqrt(np.mean(np.sum((origins - origins.mean(axis=0)) ** 2, axis=1)))) or 1.0
+    size = float(centroid_and_length(origins, np)[1])
     closed = np.asarray(motion.closed)
     steepest, both = 0.0, closed[1:] & closed[:-1] & (pace > 0)
     for joint, moved in zip(joints, motion.displacements, strict=True):

@@ -18,6 +18,7 @@ from jaxtyping import Array, Float
 
 from jaxkin._arguments import by_name
 from jaxkin._names import nearest
+from jaxkin.geometry.characteristic_length import centroid_and_length
 from jaxkin.geometry.rigid import as_matrices, inverse, product
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.joint_motion import joint_motion
@@ -101,6 +102,4 @@ def closure_residual(
 def _scale(joints: Sequence[Joint]) -> tuple[Float[Array, "3"], Float[Array, ""]]:
     """Compute the centroid and the characteristic length of the joints of a loop group, as the solver does."""
     origins = lax.stop_gradient(jnp.concatenate([jnp.asarray(joint.frames_1)[:, :3, 3] for joint in joints]))
-    centre = jnp.mean(origins, axis=0)
-    radius = jnp.sqrt(jnp.mean(jnp.sum((origins - centre) ** 2, axis=1)))
-    return centre, jnp.where(radius > 0, radius, 1.0)
+    return centroid_and_length(origins)

@@ -9,6 +9,7 @@ import jax
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin.geometry.characteristic_length import centroid_and_length
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.patches import FollowedSpline
 from jaxkin.geometry.pose import Pose, inverse
@@ -119,8 +120,8 @@ class ClosedLoops:
         row_of = structure.row_of
         self.ends = {index: (row_of[joint.parts[0]], row_of[joint.parts[1]]) for index, joint in joints.items()}
         origins = np.concatenate([np.asarray(joint.frames_1, float)[:, :3, 3] for joint in joints.values()])
-        centre = self.centre = origins.mean(axis=0)
-        length = self.length = float(np.sqrt(((origins - centre) ** 2).sum(axis=1).mean())) or 1.0
+        centre, length = centroid_and_length(origins, np)
+        self.centre, self.length = centre, float(length)
 
         def scaled(frames) -> np.ndarray:
             frames = np.array(frames, float)

@@ -18,6 +18,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Float
 
+from jaxkin.geometry.characteristic_length import centroid_and_length
 from jaxkin.geometry.elementary_motions import ElementaryMotion, amount, displaced_columns, rates
 from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.geometry.patches import FollowedSpline
@@ -43,9 +44,8 @@ class Scale(NamedTuple):
     def of(linkage: Linkage) -> Scale:
         """Find size and middle of a linkage."""
         origins = jnp.concatenate([jnp.asarray(joint.frames_1, float)[:, :3, 3] for joint in linkage.joints])
-        middle = jnp.mean(origins, axis=0)
-        square = jnp.mean(jnp.sum((origins - middle) ** 2, axis=1))
-        return Scale(jnp.where(square > 0, jnp.sqrt(jnp.where(square > 0, square, 1.0)), 1.0), middle)
+        middle, size = centroid_and_length(origins)
+        return Scale(size, middle)
 
     def arm(self, points: Float[Array, "3 poses"]) -> Float[Array, "3 poses"]:
         """Vectors from the middle to points of the world, over the size."""

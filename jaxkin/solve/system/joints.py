@@ -10,6 +10,7 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
+from jaxkin.geometry.characteristic_length import centroid_and_length
 from jaxkin.geometry.patches import Followed
 
 Frames = Float[Array | np.ndarray, "_ 4 4"]
@@ -47,9 +48,7 @@ def scaled_frames(
     frames = xp.concatenate([*(xp.asarray(each, float) for each in (*frames_1, *frames_2)), np.eye(4)[None]])
     origins = frames[: len(frames) // 2, :3, 3]
     origins = lax.stop_gradient(origins) if xp is jnp and constant else origins
-    centre = xp.mean(origins, axis=0)
-    radius = xp.sqrt(xp.mean(xp.sum((origins - centre) ** 2, axis=1)))
-    length = xp.where(radius > 0, radius, 1.0)
+    centre, length = centroid_and_length(origins, xp)
     shift = (frames[:-1, :3, 3] - centre) / length
     if xp is jnp:
         return frames.at[:-1, :3, 3].set(shift), length
