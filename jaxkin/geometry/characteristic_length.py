@@ -11,12 +11,14 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-SINGLE_PRECISION = 1e-7
-"""Distance, over that from the origin, below which points are one: files keep them in single precision."""
+EIGHT_DIGITS = 1e-8
+"""Distance, over that from the origin, below which points are one, in float64: rounding of coordinates would be 2e-8 of
+the size of a smaller mechanism, and files with few digits write a point differently here and there."""
 ROUNDINGS = 100.0
-"""The same in units of rounding, where that is more: points that are one come out of a few rotations and sums."""
-SMALLEST = 1e-8
-"""Distance, in the unit of length, below which points are one: no mechanism is that small in any unit."""
+"""The same in units of rounding, where that is more, as in float32."""
+SMALLEST = 1e-12
+"""Distance, in the unit of length, below which points are one: at the origin rounding leaves such numbers in place of
+zero."""
 
 
 def centroid_and_length(points: Float[Array | np.ndarray, "n 3"], xp: Any = jnp) -> tuple[Any, Any]:
@@ -27,6 +29,6 @@ def centroid_and_length(points: Float[Array | np.ndarray, "n 3"], xp: Any = jnp)
     """
     centre = xp.mean(points, axis=0)
     square = xp.mean(xp.sum((points - centre) ** 2, axis=1))
-    noise = max(SINGLE_PRECISION, ROUNDINGS * float(xp.finfo(points.dtype).eps)) * xp.max(xp.abs(points))
+    noise = max(EIGHT_DIGITS, ROUNDINGS * float(xp.finfo(points.dtype).eps)) * xp.max(xp.abs(points))
     apart = square > xp.maximum(noise, SMALLEST) ** 2
     return centre, xp.sqrt(xp.where(apart, square, 1.0))

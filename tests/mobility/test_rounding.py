@@ -82,12 +82,12 @@ def test_a_spherical_wrist_of_two_interlocking_loops_keeps_its_three_freedoms():
     assert numbers(Mechanism.build(fixed=["ground"], joints=joints)) == numbers(spherical_wrist())
 
 
-@pytest.mark.parametrize("centre", [1.0, pytest.param(0.0, marks=LONG), pytest.param(1000.0, marks=LONG)])
+@pytest.mark.parametrize("centre", [1.0, pytest.param(1000.0, marks=LONG)])
 @pytest.mark.parametrize("digits", [15, pytest.param(9, marks=LONG)])
 def test_a_spherical_linkage_whose_points_are_one_but_for_rounding_moves(centre, digits):
     # the points of the joints have no extent of their own: their noise must not be taken for the size of the mechanism
     axes, theta = mechanisms.spherical_linkage().all_joints, np.linspace(-0.3, 0.3, 7)
-    noise = 10.0**-digits * np.random.default_rng(0).uniform(-1, 1, (4, 3))
+    noise = centre * 10.0**-digits * np.random.default_rng(0).uniform(-1, 1, (4, 3))
 
     def at(points) -> Mechanism:
         joints = [
