@@ -61,7 +61,7 @@ class SolverOptions:
     residual is large and convergence linear."""
     rescue_steps: int = 200
     """Steps of the damped corrector, at most, for the assembled pose, and for a pose that is to be closed or to be
-    brought to its least residual by itself."""
+    brought to its least residual by itself; ten times as many for a pose far beyond a limit."""
     interpolate_from: int = 8192
     """Ranges of at least this number of poses are interpolated between a few that were solved, and checked."""
     cores: int | None = None

@@ -137,6 +137,17 @@ def test_a_polynomial_holds_both_ways():
     same(mechanism.sweep({"B": wanted}, throw=True).coordinates["A"][:, 0], angles)
 
 
+def test_beyond_the_largest_value_of_a_polynomial_nothing_is_reached():
+    wheels = [jk.revolute(name, "ground", name.lower(), point=(k, 0, 0), axis=Z) for k, name in enumerate("AB")]
+    mechanism = build(wheels, [jk.polynomial("B", "A", [0.0, 1.0, -0.5])])
+    wanted = np.linspace(0.0, 0.7, 16)
+    motion = mechanism.sweep({"B": wanted})
+    # the wanted angle A - A^2 / 2 is 1 / 2 at most, at A = 1
+    np.testing.assert_array_equal(motion.status, np.where(wanted < 0.5, jk.Status.CLOSED, jk.Status.UNREACHABLE))
+    away = np.asarray(motion.coordinates["A"])[wanted > 0.5, 0]
+    np.testing.assert_allclose(away, 1.0, atol=1e-3)  # the least residual is flat there
+
+
 @pytest.mark.long
 def test_derivatives_with_respect_to_a_ratio():
     """The crank angle is ratio times the input: d/d ratio of the rocker is its rate times the input."""

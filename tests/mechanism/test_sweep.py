@@ -39,6 +39,28 @@ def test_statuses_next_to_the_limit(margin):
     assert list(motion.status) == [Status.CLOSED, Status.UNREACHABLE]
 
 
+@pytest.mark.parametrize("rocker", [pytest.param(2.49, marks=pytest.mark.long), 2.499])
+@pytest.mark.parametrize("poses", [361, pytest.param(3601, marks=pytest.mark.long)])
+def test_behind_a_narrow_gap_poses_are_reached_the_other_way_round(rocker, poses):
+    """The crank passes all of its turn but 0.09 to 0.2 rad where coupler and rocker would be stretched too far."""
+    lengths = {"ground": 4.0, "crank": 1.5, "coupler": 3.0, "rocker": rocker}
+    inputs = np.linspace(-np.pi, np.pi, poses)
+    motion = planar_fourbar(np.pi / 2, **lengths).sweep({"A": inputs})
+    reach = np.abs(4.0 - 1.5 * np.exp(1j * (np.pi / 2 + inputs)))
+    np.testing.assert_array_equal(motion.status, np.where(reach < 3.0 + rocker, Status.CLOSED, Status.UNREACHABLE))
+    assert np.sum(~motion.closed) >= 5
+
+
+def test_far_beyond_the_limits_no_pose_closes():
+    """A crank longer than coupler and rocker together: they do not reach it anywhere on the far side."""
+    lengths = {"ground": 1.457442573711074, "crank": 1.886036060218882, "coupler": 0.353211887598004}
+    mechanism = planar_fourbar(0.25, **lengths, rocker=0.303088357646203)
+    motion = mechanism.sweep({"A": np.linspace(-np.pi, np.pi, 101)})
+    away = np.abs(lengths["ground"] - lengths["crank"] * np.exp(1j * (0.25 + np.linspace(-np.pi, np.pi, 101))))
+    np.testing.assert_array_equal(np.asarray(motion.status) == Status.UNREACHABLE, away > 0.656300245243)
+    assert np.sum(motion.closed) > 5
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("turns", [1, 2])
 @pytest.mark.parametrize("shift", [0.0, 0.3, -0.25])

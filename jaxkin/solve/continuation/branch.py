@@ -48,7 +48,7 @@ class _Trace(NamedTuple):
     fronts: Fronts
     count: Int[Array, ""]
     limits: Float[Array, "2"]
-    """Distance along the path at which each front first met a limit; -inf and inf where it has met none."""
+    """Distance along the path that each front closed last before it met a limit; -inf and inf where it has met none."""
     parted: Bool[Array, ""]
     """Whether the fronts, a full turn apart, were found in different poses."""
     table: Float[Array, "samples entries"]
@@ -97,7 +97,9 @@ def trace_branch(problem: ContinuationProblem, values: Float[Array, " poses"]) -
             met = jnp.all(fronts.at == meeting)
             apart = lax.cond(any_in_lockstep(met), lambda: ~_same_pose(problem, fronts.state), lambda: no)
             parted |= met & apart
-        return _Trace(fronts, trace.count + 1, jnp.where(at_limit, fronts.at, trace.limits), parted, table)
+        # the limit is behind the front before this step, which may have passed all of a narrow gap
+        limits = jnp.where(at_limit, trace.fronts.at, trace.limits)
+        return _Trace(fronts, trace.count + 1, limits, parted, table)
 
     trace = lax.while_loop(running, step, _Trace(fronts, jnp.asarray(0), no_limits, no, table))
     fronts, count, limits, parted, table = trace

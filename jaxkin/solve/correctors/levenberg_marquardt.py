@@ -32,6 +32,12 @@ limit, J vanishes at the least residual, and steps with relative damping grow as
 200 of its steps there, most of them refused, and takes twenty from the limit."""
 AFTER_GAIN = 0.3
 """What the factor of the damping is multiplied by after a step that lowers the merit."""
+OVERSHOT = 0.25
+"""Slope of the merit along a step at its end, over that at its beginning with the other sign, from which on the step
+went too far. Steps from side to side of a valley lower the merit, but little: where much of the residual is left,
+Gauss-Newton takes the valley for wider than it is."""
+AFTER_OVERSHOT = 3.0
+"""What the factor is multiplied by after a step that went too far, though it lowers the merit."""
 AFTER_REFUSAL = 8.0
 """What it is multiplied by after a refused step: more than one gain takes back, or every other step would be refused.
 """
@@ -71,6 +77,8 @@ class _Iterate(NamedTuple):
     """Factor of the damping."""
     done: Bool[Array, " poses"]
     trial: State
+    delta: Float[Array, "columns poses"]
+    """The step from `state` to `trial`."""
 
 
 def damping_floor(dtype) -> float:
@@ -103,10 +111,13 @@ def levenberg_marquardt(
         better = (trial.merit < iterate.closure.merit) & ~iterate.done
         taken = better | first
         chosen_state, chosen = select_poses(taken, (iterate.trial, trial), (iterate.state, iterate.closure))
-        lower = jnp.maximum(AFTER_GAIN * iterate.factor, LEAST_FACTOR)
-        higher = jnp.minimum(AFTER_REFUSAL * iterate.factor, MOST_FACTOR)
-        factor = jnp.where(first, iterate.factor, jnp.where(better, lower, higher))
         jacobian = free_jacobian(system, chosen)
+        # J^T r is the gradient of the merit; of a refused step both slopes are those of its beginning
+        slope = jnp.sum(_gradient(jacobian, chosen) * iterate.delta, axis=0)
+        begun = jnp.sum(_gradient(free_jacobian(system, iterate.closure), iterate.closure) * iterate.delta, axis=0)
+        change = jnp.where(slope > -OVERSHOT * begun, AFTER_OVERSHOT, AFTER_GAIN)
+        change = jnp.where(better, change, AFTER_REFUSAL)
+        factor = jnp.where(first, iterate.factor, jnp.clip(change * iterate.factor, LEAST_FACTOR, MOST_FACTOR))
         scale = jnp.maximum(1.0, LEAST_MEAN_SQUARE / (_mean_square(jacobian) + 1e-300))
         damping = factor * scale * jnp.minimum(2 * chosen.merit, 1.0) + damping_floor(dtype)
         delta = -solve_least_norm(jacobian, chosen.residual, damping, system.used)
@@ -128,7 +139,8 @@ def levenberg_marquardt(
             | ~jnp.isfinite(chosen.merit)
             | (iterate.count == max_steps)
         )
-        return _Iterate(iterate.count + 1, chosen_state, chosen, factor, done, retract(system, chosen_state, delta))
+        trial = retract(system, chosen_state, delta)
+        return _Iterate(iterate.count + 1, chosen_state, chosen, factor, done, trial, delta)
 
     poses = state.x.shape[-1]
     nothing = Closure(
@@ -138,7 +150,8 @@ def levenberg_marquardt(
         jnp.full(poses, jnp.inf, dtype),
     )
     no = jnp.zeros(poses, bool)
-    start = _Iterate(jnp.asarray(0), state, nothing, jnp.ones(poses, dtype), no, state)
+    still = jnp.zeros_like(state.x)
+    start = _Iterate(jnp.asarray(0), state, nothing, jnp.ones(poses, dtype), no, state, still)
     last = lax.while_loop(running, step, start)
     stationary = _range_cosine(system, last.closure, free_jacobian(system, last.closure)) < STATIONARY_COSINE
     return LevenbergMarquardtResult(last.state, last.closure, last.closure.residual_norm, stationary)
@@ -158,11 +171,18 @@ def _range_cosine(
 
     At a least residual J^T r = 0. Where the residual is large, Gauss-Newton converges to it linearly; the test is
     therefore on the angle between residual and range, which an iterate on its way does not meet. The Jacobian of a rod
-    holds no rotation of its ball, to which its residual is orthogonal: each rod adds 1 to the square of J.
+    holds no rotation of its ball, to which its residual is orthogonal: each rod adds 1 to the square of J. Where J
+    vanishes, as at the largest value of a coupling's polynomial, J^T r does with it: J counts as `LEAST_MEAN_SQUARE`.
     """
-    reach = jnp.sum(jacobian * evaluation.residual[:, None], axis=0)
     square = jnp.sum(jacobian**2, axis=(0, 1)) + sum(len(cut) > 1 for cut in system.cuts)
-    return jnp.sqrt(jnp.sum(reach**2, axis=0) / (square * 2 * evaluation.merit + 1e-300))
+    square = jnp.maximum(square, LEAST_MEAN_SQUARE * len(jacobian))
+    gradient = _gradient(jacobian, evaluation)
+    return jnp.sqrt(jnp.sum(gradient**2, axis=0) / (square * 2 * evaluation.merit + 1e-300))
+
+
+def _gradient(jacobian: Float[Array, "equations columns poses"], evaluation: Closure) -> Float[Array, "columns poses"]:
+    """Compute the gradient of the merit, J^T r."""
+    return jnp.sum(jacobian * evaluation.residual[:, None], axis=0)
 
 
 def select_poses(mask: Bool[Array, " poses"], yes, no):

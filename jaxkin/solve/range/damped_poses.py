@@ -26,6 +26,10 @@ DAMPED_GROUP = 32
 """Number of poses that the damped corrector works on at once on CPUs: in most groups Newton's method leaves no more
 open."""
 
+VALLEY = 10
+"""Steps to a least residual, at most, over `rescue_steps`: far beyond a limit the residual may have a long bent valley, as
+of a crank longer than all other bars together, along which 200 steps are not enough."""
+
 
 def correct_damped(
     problem: ContinuationProblem,
@@ -59,7 +63,7 @@ def correct_damped(
             nodes = jax.tree.map(lambda array: array[..., order[spread]], found)
             between, usable = _between(problem.system, nodes, in_order[spread], start, in_order[ranks])
             start = select_poses(usable & (begun > 0), between, start)
-        here = levenberg_marquardt(problem, start, problem.options.rescue_steps, target_residual)
+        here = levenberg_marquardt(problem, start, VALLEY * problem.options.rescue_steps, target_residual)
         found = jax.tree.map(
             lambda whole, part: whole.at[..., which].set(part),
             found,
