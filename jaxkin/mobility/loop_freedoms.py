@@ -92,7 +92,8 @@ class LoopFreedoms:
 
     def _jacobian(self, there: Travel) -> Float[np.ndarray, "equations columns"]:
         """Compute the closure Jacobian at a closed pose, with the derivatives of the couplings below it."""
-        return np.concatenate([loop_jacobian(self.loop_group.loops, self.columns, there.screws), there.coupled])
+        of_loops = loop_jacobian(self.loop_group.loops, self.columns, there.screws)
+        return np.concatenate([of_loops, there.coupling_jacobian])
 
     @cached_property
     def jacobian(self) -> Float[np.ndarray, "equations columns"]:

@@ -98,7 +98,7 @@ def _held(jacobian: Float[np.ndarray, "equations columns"], least: float) -> Flo
 
 
 def _frame_jacobian(loops: ClosedLoops, frames: list[tuple[int, int]], q: Row) -> Float[np.ndarray, "equations twists"]:
-    """Differentiate the misfits of the loops with respect to twists of the frames, six columns a frame.
+    """Differentiate `Travel.residual` of the loops with respect to twists of the frames, six columns a frame.
 
     A frame that moves by `p` on both sides changes its displacement D by `p D - D p`: by the twist `p - Ad_D p`.
     """
