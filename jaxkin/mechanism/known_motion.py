@@ -84,7 +84,7 @@ def known_motion(motion: Motion) -> tuple[KnownDrive, KnownMotion]:
 def _numbers(plan: DrivePlan, motion: Motion) -> tuple[Joints | Axes, ...]:
     """Choose the numbers from which the derivatives of each loop group follow: the axes where no pose is singular."""
     joints = tuple(each.joints for each in plan.loop_groups)
-    if (formulas := plan.by_formula) is None or traced(motion.inputs) or not formulas.passes(motion.inputs):
+    if (formulas := plan.formula_sweep) is None or traced(motion.inputs) or not formulas.passes(motion.inputs):
         return joints
     return tuple(
         known.axes if system.planar else own
