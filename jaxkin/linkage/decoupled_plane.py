@@ -22,6 +22,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin._traced import traced
+from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.partial_movement import remaining
 from jaxkin.geometry.pose import frame
@@ -107,20 +108,18 @@ def _tilted(joints: Sequence[Joint], normal: np.ndarray) -> bool:
 
 def _can_rest(joints: Sequence[Joint], columns: Sequence[int]) -> bool:
     """Tell whether each movement without its coordinates out of the plane, not in `columns`, is a movement, too."""
-    column = 0
-    for joint in joints:
-        for name in joint.movements:
-            count = len(MOVEMENTS[name].coordinates)
-            if remaining(name, [k for k in range(count) if column + k in columns]) is None:
-                return False
-            column += count
-    return True
+    chain = [name for joint in joints for name in joint.movements]
+    return all(
+        remaining(name, [k for k, column in enumerate(own) if column in columns]) is not None
+        for name, own in zip(chain, coordinate_ranges(chain), strict=True)
+    )
 
 
 def _ball_columns(joints: Sequence[Joint]) -> set[int]:
     """List the columns of balls."""
-    every = [name for joint in joints for name in joint.movements for _ in MOVEMENTS[name].coordinates]
-    return {column for column, name in enumerate(every) if MOVEMENTS[name].ball}
+    chain = [name for joint in joints for name in joint.movements]
+    columns = zip(chain, coordinate_ranges(chain), strict=True)
+    return {column for name, own in columns if MOVEMENTS[name].ball for column in own}
 
 
 def _others_rest(

@@ -18,8 +18,9 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.pose import Pose, inverse
-from jaxkin.joints.screws import freedoms, moved
+from jaxkin.joints.screws import moved
 from jaxkin.linkage.first_order import null_space
 from jaxkin.linkage.host_closure import ClosedLoops, Row
 from jaxkin.mobility.consistency import cutoff, nearest_closed, rounding
@@ -105,12 +106,9 @@ def _frame_jacobian(loops: ClosedLoops, frames: list[tuple[int, int]], q: Row) -
     first = {frame: 6 * number for number, frame in enumerate(frames)}
     steps: dict[int, list[Pose]] = {}
     for joint, each in loops.chains.items():
-        own, start = q[loops.slices[joint]], 0
-        steps[joint] = []
-        for number, name in enumerate(each.movements):
-            stop = start + freedoms([name])
-            steps[joint].append(each.alone(number).displaced(own[start:stop])[0])
-            start = stop
+        own = q[loops.slices[joint]]
+        numbered = enumerate(coordinate_ranges(each.movements))
+        steps[joint] = [each.alone(n).displaced(own[columns.start : columns.stop])[0] for n, columns in numbered]
     jacobian = np.zeros((len(loops.loop_group.loops), 6, 6 * len(frames)))
     for rows, loop, pose in zip(jacobian, loops.loop_group.loops, loops.travel(q).starts, strict=True):
         for joint, sign in loop:

@@ -35,6 +35,7 @@ from jaxkin.effects.forces.balance_equations import equations, gradient_by_chord
 from jaxkin.effects.forces.changes import Rows
 from jaxkin.effects.forces.joint_balance import JointBalance, Wrenches
 from jaxkin.effects.forces.screws import Places, Scale, Twist, cross
+from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.coordinates import coordinate
@@ -76,14 +77,9 @@ def balance(linkage: Linkage, at: Places, displacements: Rows, driven: Sequence[
 
 def _free_balls(joint: Joint, driven: Sequence[int]) -> list[int]:
     """List the first coordinate of each ball that ends the chain of a joint and has no drive."""
-    first, found = 0, []
-    for place, movement in enumerate(joint.movements):
-        driven_here = any(first <= k < first + len(MOVEMENTS[movement].coordinates) for k in driven)
-        # further ones are not at the point of the joint: their angles stay
-        if MOVEMENTS[movement].ball and not driven_here and place == len(joint.movements) - 1:
-            found.append(first)
-        first += len(MOVEMENTS[movement].coordinates)
-    return found
+    # balls before the end of the chain are not at the point of the joint: their angles stay
+    ends = list(zip(joint.movements, coordinate_ranges(joint.movements), strict=True))[-1:]
+    return [own[0] for movement, own in ends if MOVEMENTS[movement].ball and not set(own) & set(driven)]
 
 
 def coupling_gradients(linkage: Linkage, displacements: Sequence[Array], size: Any) -> list[dict[Any, Array]]:

@@ -18,6 +18,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Float
 
+from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.characteristic_length import centroid_and_length
 from jaxkin.geometry.elementary_motions import ElementaryMotion, amount, displaced_columns, rates
 from jaxkin.geometry.movements import MOVEMENTS, is_length
@@ -77,11 +78,8 @@ class Motions(NamedTuple):
 
 def coordinates_of_motions(joint: Joint) -> list[int]:
     """List for each elementary motion of a joint, from part 1 to part 2, the number of its coordinate."""
-    first, found = 0, []
-    for movement in joint.movements:
-        found += [first + element.coordinate for element in MOVEMENTS[movement].elements]
-        first += len(MOVEMENTS[movement].coordinates)
-    return found
+    numbered = zip(joint.movements, coordinate_ranges(joint.movements), strict=True)
+    return [own[element.coordinate] for movement, own in numbered for element in MOVEMENTS[movement].elements]
 
 
 class Places(NamedTuple):
