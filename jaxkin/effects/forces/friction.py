@@ -215,7 +215,7 @@ def _normal_forces(
     unit = jnp.eye(len(c_0))
 
     def step(c_0: Array, by: Array, normal: Array) -> tuple[Array, Array, Array]:
-        """A step of Newton's method; the error before it, and the determinant of the Jacobian."""
+        """Take a step of Newton's method; returns also the error before it, and the determinant of the Jacobian."""
         c = c_0 + jnp.sum(by * normal[:, None, None], axis=0)
         square = jnp.sum(c**2, axis=1)
         size = jnp.sqrt(jnp.where(square > 0, square, 1.0)) * jnp.where(square > 0, 1.0, 0.0)

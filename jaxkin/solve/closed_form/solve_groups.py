@@ -85,6 +85,7 @@ def solve_once(
 
 
 def _formulas(system: LoopSystem) -> list[GroupFormula]:
+    """List the formulas of all groups; ValueError where a group has none."""
     found = [formula for formula in group_formulas(system) if isinstance(formula, GroupFormula)]
     if len(found) < len(group_formulas(system)):
         raise ValueError(f"a group has no formula: {group_formulas(system)}")
@@ -111,6 +112,7 @@ def _solve(
 
 
 def _signed_root(system: LoopSystem, axes: Axes, formula: GroupFormula, rest: Coordinates) -> Number:
+    """Compute the signed root of the discriminant of a group, whose unknowns are zero, at the coordinates `rest`."""
     if formula.name == "planar dyad":
         return planar_dyad.signed_root(formula.letters, *_planar(system, axes, formula, rest))
     if formula.name == "spherical triangle":

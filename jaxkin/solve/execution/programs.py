@@ -127,6 +127,7 @@ def _formulas_suffice(
 
 
 def _outcome(poses: Poses | FormulaPoses) -> Outcome:
+    """Select status and residual norm."""
     return Outcome(poses.status, poses.residual_norm)
 
 
@@ -175,6 +176,7 @@ def _poses_of_all_designs(
 
 
 def _all_closed(poses: Poses) -> Array:
+    """Tell whether all poses of a design are CLOSED."""
     return jnp.all(poses.status == Status.CLOSED.value)
 
 
