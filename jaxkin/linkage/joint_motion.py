@@ -12,7 +12,7 @@ from jaxtyping import Array, Float
 
 from jaxkin._traced import traced
 from jaxkin.geometry.chains import coordinate_ranges
-from jaxkin.geometry.movements import carried, displaced
+from jaxkin.geometry.movements import displace_point, displaced
 from jaxkin.geometry.rigid import Rigid, as_matrices, as_rigid, inverse, product
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.linkage import Linkage
@@ -83,11 +83,11 @@ def point_path(
     here, poses = point[:, None], displacements[0].shape[0]
     while part in hangs:
         part, joint, sign = hangs[part]
-        here = _carried(linkage.joints[joint], jnp.asarray(displacements[joint]), here, sign)
+        here = _displace_by_joint(linkage.joints[joint], jnp.asarray(displacements[joint]), here, sign)
     return jnp.broadcast_to(here, (3, poses)).T
 
 
-def _carried(joint: Joint, q: Float[Array, "poses _"], point: Float[Array, "3 #poses"], sign: int) -> Array:
+def _displace_by_joint(joint: Joint, q: Float[Array, "poses _"], point: Float[Array, "3 #poses"], sign: int) -> Array:
     """Apply the displacement of a joint to a point, or its inverse where `sign` is negative."""
     numbered = enumerate(zip(joint.movements, coordinate_ranges(joint.movements), strict=True))
     steps = [(movement, frame, q[:, own.start : own.stop].T) for frame, (movement, own) in numbered]
@@ -97,7 +97,7 @@ def _carried(joint: Joint, q: Float[Array, "poses _"], point: Float[Array, "3 #p
         curve = joint.curves[frame] if joint.curves else None
         # products of matrices, whose derivatives by the frames add up all poses at once
         local = before[:3, :3].T @ (point - before[:3, 3:])
-        local = carried(local, movement, own, jnp.asarray(joint.pitch, q.dtype), curve, back=sign < 0)
+        local = displace_point(local, movement, own, jnp.asarray(joint.pitch, q.dtype), curve, back=sign < 0)
         point = after[:3, :3] @ local + after[:3, 3:]
     return point
 

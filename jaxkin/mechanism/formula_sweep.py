@@ -61,7 +61,7 @@ class _KnownLine(NamedTuple):
         """Copy to the device what programs are given."""
         return self._replace(line=jax.device_put(self.line), passed=jax.device_put(self.passed))
 
-    def of(self, values: np.ndarray) -> Line | PassedLine:
+    def for_inputs(self, values: np.ndarray) -> Line | PassedLine:
         """Choose what the program is given for inputs in radians or characteristic lengths."""
         endless = self.lowest == -np.inf
         return self.passed if endless or (self.lowest <= values.min() and values.max() <= self.highest) else self.line
@@ -137,16 +137,16 @@ class FormulaSweep:
         """
         rows = [np.asarray(row) for row in inputs.values()]
         return all(
-            turn is not None and rows[which].size > 0 and turn.of(rows[which]) is turn.passed
+            turn is not None and rows[which].size > 0 and turn.for_inputs(rows[which]) is turn.passed
             for turn, which in zip(self.turn_lines, self.inputs, strict=True)
         )
 
     def _line(self, number: int, values: np.ndarray) -> Line | PassedLine:
         """Choose the line of the input of a loop group: the one that is kept, or that of a displacement."""
         if (turn := self.turn_lines[number]) is not None:
-            return turn.of(values)
+            return turn.for_inputs(values)
         system, axes = self.systems[number], self.axes[number]
-        return _known_line(system, line_of(system, axes, values[None])).of(values / axes.length)
+        return _known_line(system, line_of(system, axes, values[None])).for_inputs(values / axes.length)
 
     def _collected(self, chunks: list[_Found], rows: np.ndarray, finite: np.ndarray | None) -> Collected:
         """Collect what was found for the chunks: by a program, or on the host where so many poses are rare."""
