@@ -25,7 +25,7 @@ from jaxkin.solve.closed_form.formula_displacements import joint_displacements
 from jaxkin.solve.closed_form.group_formulas import GroupFormula, group_formulas
 from jaxkin.solve.closed_form.solve_groups import residual_norm, solve_groups
 from jaxkin.solve.closure.closure import scaled_geometry
-from jaxkin.solve.closure.joint_coordinates import ball_turns, joint_coordinates
+from jaxkin.solve.closure.joint_coordinates import ball_rotations, joint_coordinates
 from jaxkin.solve.correctors.levenberg_marquardt import levenberg_marquardt
 from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.options import SolverOptions
@@ -253,8 +253,8 @@ def _closed(
     target = rounding_residual(state.x.dtype, CLOSED_ROUNDINGS)
     begun = drive(system, state, inputs / given)
     found = levenberg_marquardt(problem, begun, options.rescue_steps, target)
-    turns = ball_turns(system, geometry, found.state)
-    x = joint_coordinates(system, joints.frames_1, joints.frames_2, found.state.x * lengths, turns)
+    rotations = ball_rotations(system, geometry, found.state)
+    x = joint_coordinates(system, joints.frames_1, joints.frames_2, found.state.x * lengths, rotations)
     return x, found.residual_norm
 
 

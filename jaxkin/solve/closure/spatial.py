@@ -124,7 +124,7 @@ def _of_rods(
     return length[first] - length[second], (one - other)[:, :, None]
 
 
-def cut_turns(system: LoopSystem, geometry: Spatial, state: State) -> dict[int, Float[Array, "3 3 poses"]]:
+def cut_rotations(system: LoopSystem, geometry: Spatial, state: State) -> dict[int, Float[Array, "3 3 poses"]]:
     """Compute for each ball at which a loop is cut the rotation, [row, column], that closes the loop, by ball number.
 
     The spin of a rod that is cut at both balls is arbitrary.

@@ -17,7 +17,7 @@ from jax import lax
 from jaxtyping import Array, Bool, Float, Int, Shaped
 
 from jaxkin.solve.closure.closure import Geometry, closure, scaled_geometry
-from jaxkin.solve.closure.joint_coordinates import ball_turns, joint_coordinates, unwrap_ball_angles
+from jaxkin.solve.closure.joint_coordinates import ball_rotations, joint_coordinates, unwrap_ball_angles
 from jaxkin.solve.continuation.branch import trace_branch
 from jaxkin.solve.continuation.branch_samples import BranchSamples, predict
 from jaxkin.solve.continuation.fronts import ContinuationProblem
@@ -116,8 +116,8 @@ def displacements(
     def of_group(group: tuple[Array, Poses]) -> Float[Array, "columns group"]:
         inputs, poses = group
         state = attach_derivative(system, geometry, inputs, poses.state, closes_before_limits(poses.status))
-        turns = ball_turns(system, geometry, state)
-        return joint_coordinates(system, joints.frames_1, joints.frames_2, state.x * lengths, turns)
+        rotations = ball_rotations(system, geometry, state)
+        return joint_coordinates(system, joints.frames_1, joints.frames_2, state.x * lengths, rotations)
 
     given = inputs / driven(system, lengths), lax.stop_gradient(poses)
     found = in_groups(of_group, given, size or max(1, inputs.shape[1])) if system.free else of_group(given)
