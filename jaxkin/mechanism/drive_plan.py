@@ -116,7 +116,7 @@ def _kept(linkage: Linkage) -> dict[Any, DrivePlan]:
 
 
 def _plan_drive(linkage: Linkage, keys: Sequence[str]) -> DrivePlan:
-    """Make the plan of a drive, without `formula_sweep`; numbers that are not known are not judged."""
+    """Make the plan of a drive, without `formula_sweep`; whether it is feasible is judged where numbers are known."""
     driven = coordinates(linkage, keys)
     places = list(driven.values())
     on_host = linkage if not traced(linkage) else lax.stop_gradient(linkage)  # by `grad` alone they are there

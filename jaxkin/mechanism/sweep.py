@@ -132,7 +132,7 @@ def _follow(mechanism: Mechanism, drive: Mapping[str, Any], options: SolverOptio
 
 
 def _motion(mechanism: Mechanism, plan: DrivePlan, found: Collected, options: SolverOptions) -> Motion:
-    """Make the motion of what was collected."""
+    """Make the motion of what was collected; if the assembled pose is a dead point, some statuses are `in_doubt`."""
     # under `grad` JAX hands arrays of the host through as they are
     arrays = (each if isinstance(each, jax.Array) else jnp.asarray(each) for each in found.inputs)
     inputs = dict(zip(plan.driven, arrays, strict=True))
@@ -175,7 +175,7 @@ def _largest_angle(driven: Iterable[str], values: Sequence[Given]) -> float:
 def closure_tolerance(asked: Any, largest_angle: float = 0.0) -> ClosureTolerance:
     """Make the tolerance of a number, known or traced; for None that of the floating-point precision.
 
-    It is then no finer than angles of up to `largest_angle`, radians, are told apart.
+    The latter is at least `FAR_ROUNDINGS` times the distance between neighbouring numbers at `largest_angle`, radians.
     """
     dtype = dtypes.canonicalize_dtype(float)
     if asked is None or isinstance(asked, float):

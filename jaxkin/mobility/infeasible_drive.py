@@ -157,10 +157,8 @@ def _choices(found: LoopFreedoms) -> list[tuple[int, ...]]:
 def _surest(found: LoopFreedoms, choices: Sequence[tuple[int, ...]]) -> Sequence[tuple[int, ...]]:
     """Select the groups that can be driven at the assembled pose too (not a slide at its dead point); all if none
     can."""
-    at_rest = [
-        group for group in choices if independent(found.assembled_motions, group, found.thresholds) == len(group)
-    ]
-    return at_rest or choices
+    motions = found.assembled_motions
+    return [group for group in choices if independent(motions, group, found.thresholds) == len(group)] or choices
 
 
 def _or(linkage: Linkage, found: LoopFreedoms, groups: Sequence[Sequence[int]]) -> str:
@@ -175,18 +173,15 @@ def dead_point(linkage: Linkage, driven: Sequence[Coordinate]) -> str | None:
     none: which of two the motion goes to, and whether there is one, the drive does not say.
     """
     for found, columns in _driven_groups(linkage, driven):
-        moving = np.linalg.svd(found.assembled_motions[:, list(columns)], compute_uv=False) > AT_REST
+        motions = found.assembled_motions
+        moving = np.linalg.svd(motions[:, list(columns)], compute_uv=False) > AT_REST
         if moving.sum() == len(columns) or not _follows(found, columns):
             continue
         told = (
             f"the assembled pose is a dead point of {listed(names(linkage, found, columns))}, where two branches meet"
         )
         for group in _choices(found):
-            if (
-                len(group) == 1
-                and group[0] not in columns
-                and np.abs(found.assembled_motions[:, group[0]]).max() > AT_REST
-            ):
+            if len(group) == 1 and group[0] not in columns and np.abs(motions[:, group[0]]).max() > AT_REST:
                 (name,) = names(linkage, found, group)
                 beside = f"mechanism.at(mechanism.sweep({{{name!r}: [0, 0.01]}}), 1)"
                 return f"{told}: drive {name}, or assemble the mechanism beside it, as {beside} does"

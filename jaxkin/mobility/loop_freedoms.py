@@ -88,9 +88,8 @@ class LoopFreedoms:
         along = generic - least_norm(jacobian, jacobian @ generic, 1e-12)
         there, found = self._loops.closed(home + _STEP * along)
         rank = null_space(self._jacobian(found), self.thresholds.rank)[0]
-        is_generic = found.residual_norm < self.thresholds.residual and rank >= len(self.columns) - len(
-            self.assembled_motions
-        )
+        assembled_rank = len(self.columns) - len(self.assembled_motions)
+        is_generic = found.residual_norm < self.thresholds.residual and rank >= assembled_rank
         return (there, found) if is_generic else self._home
 
     def _jacobian(self, there: Travel) -> Float[np.ndarray, "equations columns"]:

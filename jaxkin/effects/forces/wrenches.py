@@ -141,7 +141,7 @@ def _of_mass(moving: Moving, masses: Masses, gravity: Any, part: str, lever: Any
 
 
 def loads_and_frictions(acting: Acting) -> tuple[tuple[Load, ...], tuple[JointFriction, ...]]:
-    """Part what is applied in loads and the friction of joints, which depends on the loads; ValueError for all else."""
+    """Split what is applied into loads and friction of joints, which depends on the loads; ValueError for all else."""
     given = acting.applied
     applied = (given,) if isinstance(given, Applied) else several(given, "applied", "loads", "[jk.force(...)]")
     for each in applied:
