@@ -24,7 +24,7 @@ from jaxkin._names import listed
 from jaxkin._traced import traced
 from jaxkin.effects.mode_plot import draw_modes
 from jaxkin.effects.mode_search import FoundPoses, PoseFeatures, Starts, find_modes, wrap_angles
-from jaxkin.effects.pose_plot import save_rows
+from jaxkin.effects.pose_plot import save_displacements
 from jaxkin.linkage.coordinates import coordinate, resolve
 from jaxkin.linkage.host_closure import ClosedLoops
 from jaxkin.mechanism.describe import why_infeasible
@@ -172,10 +172,7 @@ class AssemblyModes:
 
     def save(self, path: str | Path) -> Path:
         """Write the displacements of all joints as comma-separated values, a row a mode; returns the path."""
-        joints = self.motion.mechanism.all_joints
-        names = [f"{joint.name}.{name}" for joint in joints for name in joint.coordinates]
-        rows = np.concatenate([np.asarray(rows) for rows in self.motion.displacements], axis=1)
-        return save_rows(names, rows.T, Path(path))
+        return save_displacements(self.motion, Path(path))
 
 
 def assembly_modes(

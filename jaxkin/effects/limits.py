@@ -23,7 +23,7 @@ from jaxkin.effects.limit_search import CoordinateRange, FoundLimit, LimitKind, 
 from jaxkin.effects.mode_plot import draw_modes
 from jaxkin.effects.mode_search import PoseFeatures
 from jaxkin.effects.motion_curve import Curve
-from jaxkin.effects.pose_plot import save_rows
+from jaxkin.effects.pose_plot import save_displacements
 from jaxkin.geometry.movements import is_length
 from jaxkin.linkage.coordinates import coordinate, coordinates
 from jaxkin.linkage.host_closure import ClosedLoops
@@ -91,10 +91,7 @@ class Limits:
 
     def save(self, path: str | Path) -> Path:
         """Write the displacements of all joints at the limits and as assembled as comma-separated values."""
-        joints = self.motion.mechanism.all_joints
-        names = [f"{joint.name}.{name}" for joint in joints for name in joint.coordinates]
-        rows = np.concatenate([np.asarray(rows) for rows in self.motion.displacements], axis=1)
-        return save_rows(names, rows.T, Path(path))
+        return save_displacements(self.motion, Path(path))
 
     def _value(self, value: float) -> str:
         return f"{value:.9g} {self.unit}".rstrip() if np.isfinite(value) else f"{value}"
