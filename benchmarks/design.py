@@ -29,8 +29,9 @@ from peer_engines import Missing, pylinkage_linkage
 from jaxkin.design.augmented_lagrangian import MET, Penalty
 from jaxkin.design.least_squares import least_squares
 from jaxkin.design.optimisers import LevenbergMarquardt
-from jaxkin.design.optimize import POOL, _Bar, _best_of, _search
+from jaxkin.design.optimize import POOL, _best_of
 from jaxkin.design.problem import design_problem
+from jaxkin.design.search import ProgressBar, search
 from jaxkin.design.variables import spread, variables
 from jaxkin.examples.paths import PATHS
 from jaxkin.solve.options import SolverOptions
@@ -225,7 +226,7 @@ def race() -> None:
             history: list[np.ndarray] = []
             penalty = Penalty.plain(weight, len(vectors), constraints)
             active = np.ones(len(vectors), bool)
-            found = _search(solver, vectors, penalty, active, stop, history, _Bar(stop.iterations, False))[0]
+            found = search(solver, vectors, penalty, active, stop, history, ProgressBar(stop.iterations, False))[0]
             verdict = solver.judge(found, penalty.shifts)
             judged = int(np.isfinite(np.concatenate(history)).sum()) + len(vectors)
             return bool(np.any((verdict.losses <= stop.target) & (verdict.violations <= MET))), judged

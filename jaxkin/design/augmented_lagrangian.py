@@ -29,7 +29,7 @@ ENOUGH = 0.25
 
 
 class Penalty(NamedTuple):
-    """What violations cost, of each start or, without the leading axes, of one."""
+    """Weight and shifts of the penalty, of each start or, without the leading axes, of one."""
 
     weight: Float[np.ndarray, " starts"] | Any
     shifts: Float[np.ndarray, "starts constraints"] | Any
@@ -42,7 +42,7 @@ class Penalty(NamedTuple):
 
 
 class Verdict(NamedTuple):
-    """What some designs lose and violate."""
+    """The losses of some designs, and what they violate."""
 
     losses: Float[np.ndarray, " starts"]
     """Without penalty; nan where not finite."""

@@ -26,15 +26,18 @@ HALVINGS = 15
 
 
 class _Programs(NamedTuple):
-    """Compiled for problems of one structure, whose numbers come first."""
+    """The programs of problems of one structure, whose numbers are their first argument."""
 
     first: Callable[..., Any]
+    """Evaluate loss and gradient of designs, for the first state."""
     further: Callable[..., Any]
+    """Take `CHUNK` iterations."""
     judged: Callable[..., Judged]
+    """Judge designs: see `Problem.judge`."""
 
 
 def bounded(problem: Problem, together: int = TOGETHER) -> Solver:
-    """Bounded L-BFGS on vectors scaled to 0..1, `together` designs in a compiled program."""
+    """Make the solver by bounded L-BFGS, on vectors scaled to 0..1, `together` designs in a compiled program."""
     lower, width = unit_box(problem.variables)
     structure, numbers = taken_apart(problem)
     first, further, judged = _programs(structure)

@@ -16,10 +16,12 @@ from jaxkin.design.problem import HOPELESS, Problem, Structure, Weighted, taken_
 from jaxkin.design.solvers import CHUNK, KEPT, TOGETHER, Solver, in_groups, unit_box
 from jaxkin.solve.execution.two_tiers import TwoTiers
 
-DAMPING, LEAST_DAMPING = 1e-3, 1e-16
-"""First and least damping, relative to the largest diagonal entry of J^T J."""
-ROUNDS = 3
-"""Variables at a bound that the step would leave are held, and the step is computed anew, so many times at most."""
+FIRST_DAMPING = 1e-3
+"""Damping of the first step, relative to the largest diagonal entry of J^T J."""
+LEAST_DAMPING = 1e-16
+"""Least damping of a step, relative to the same."""
+MAX_HOLDS = 3
+"""How often a step is computed anew at most, with the variables held at whose bounds it would leave the box."""
 
 
 class _State(NamedTuple):
@@ -33,7 +35,7 @@ class _State(NamedTuple):
 
 
 def least_squares(problem: Problem, together: int = TOGETHER) -> Solver:
-    """Levenberg-Marquardt with projection: each step is that of the variables which are not held by a bound.
+    """Make the solver by Levenberg-Marquardt steps with projection: of the variables that no bound holds.
 
     One program is compiled, residuals and Jacobian of `together` designs; the small systems are solved in numpy.
     """
@@ -56,7 +58,7 @@ def least_squares(problem: Problem, together: int = TOGETHER) -> Solver:
     def begin(vectors, penalty):
         units = units_of(vectors)
         residuals, jacobian = evaluated(units, penalty)
-        damping = DAMPING * _largest(jacobian) + 1e-300
+        damping = FIRST_DAMPING * _largest(jacobian) + 1e-300
         return _State(units, residuals, jacobian, damping, np.full(len(units), 2.0))
 
     def advance(state, penalty, active):
@@ -65,7 +67,7 @@ def least_squares(problem: Problem, together: int = TOGETHER) -> Solver:
         now, of_now = jax.tree.map(lambda each: each[chosen], (state, penalty))
         for row in losses:
             units, foreseen = _proposed(now)
-            now = _judged(now, units, foreseen, *evaluated(units, of_now))
+            now = _accepted(now, units, foreseen, *evaluated(units, of_now))
             row[chosen] = _loss(now.residuals)
         whole = [each.copy() for each in state]
         for each, part in zip(whole, now, strict=True):
@@ -118,13 +120,13 @@ def _largest(jacobian: Float[np.ndarray, "starts rows variables"]) -> Float[np.n
 
 
 def _proposed(state: _State) -> tuple[Float[np.ndarray, "starts variables"], Float[np.ndarray, " starts"]]:
-    """Find where the next step leads, and the decrease of the loss that the linearised residuals foresee."""
+    """Compute where the next step leads, and the decrease of the loss that the linearised residuals foresee."""
     square = np.einsum("sri,srj->sij", state.jacobian, state.jacobian)
     slope = np.einsum("sri,sr->si", state.jacobian, state.residuals)
     at_lower, at_upper = state.units <= 0.0, state.units >= 1.0
     held = at_lower & (slope > 0) | at_upper & (slope < 0)
     step = _step(square, slope, state.damping, held)
-    for _ in range(ROUNDS):
+    for _ in range(MAX_HOLDS):
         leaving = at_lower & (step < 0) | at_upper & (step > 0)
         if not leaving.any():
             break
@@ -143,8 +145,8 @@ def _step(square, slope, damping, held: Bool[np.ndarray, "starts variables"]) ->
     return np.linalg.solve(matrix, np.where(held, 0.0, -slope)[..., None])[..., 0]
 
 
-def _judged(state: _State, units, foreseen, residuals, jacobian) -> _State:
-    """Find the step taken where it lowers the loss, and the damping by how well the decrease was foreseen (Nielsen)."""
+def _accepted(state: _State, units, foreseen, residuals, jacobian) -> _State:
+    """Take the steps that lower the loss, and choose the damping by how well the decrease was foreseen (Nielsen)."""
     gained = _loss(state.residuals) - _loss(residuals)
     better = gained > 0
     share = np.where(foreseen > 0, gained / np.where(foreseen > 0, foreseen, 1.0), 0.0)

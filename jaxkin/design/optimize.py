@@ -1,8 +1,12 @@
-"""The way from a loss and a mechanism to the best design: many starts in one batch, penalties, history, a verdict."""
+"""Find the best design: searches downhill from many starts, and a fine sweep that judges the result.
+
+`optimize` makes a `Problem` (loss, violations and their derivatives as functions of one vector) and a `Solver` of it
+(Levenberg-Marquardt or L-BFGS steps of all starts), chooses the starts from random designs, and searches, again with
+other multipliers as long as constraints ask for it (`search_with_multipliers`).
+"""
 
 from __future__ import annotations
 
-import sys
 import time
 import warnings
 from collections.abc import Callable, Mapping, Sequence
@@ -13,7 +17,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from jaxkin._arguments import check_mechanism, whole_number
-from jaxkin.design.augmented_lagrangian import MET, Penalty, Verdict, renewed, worth_more
+from jaxkin.design.augmented_lagrangian import MET, Penalty, Verdict
 from jaxkin.design.constraints import Constraint
 from jaxkin.design.lbfgs import bounded
 from jaxkin.design.least_squares import least_squares
@@ -21,7 +25,8 @@ from jaxkin.design.objective import Objective
 from jaxkin.design.optimisers import LBFGS, LevenbergMarquardt, Optimiser
 from jaxkin.design.problem import Problem, design_problem
 from jaxkin.design.result import Optimum, judged_range
-from jaxkin.design.solvers import CHUNK, TOGETHER, Solver
+from jaxkin.design.search import ProgressBar, search_with_multipliers
+from jaxkin.design.solvers import TOGETHER, Solver
 from jaxkin.design.variables import Variables, spread, variables
 from jaxkin.solve.options import SolverOptions, options_with
 
@@ -30,13 +35,9 @@ if TYPE_CHECKING:
     from jaxkin.mechanism.motion import Motion
 
 POOL = 8
-"""So many designs are drawn for each start, and the best of them begin."""
-PATIENCE = 30
-"""Iterations before a start may be given up for its pace."""
+"""Random designs for each start: the best of them are the starts."""
 NO_INFLUENCE = 1e-13
-"""Slopes so much smaller than the largest one, for every start, are rounding."""
-ROUNDS = 12
-"""Searches at most, each with the multipliers at which the one before ended."""
+"""Derivative of the loss, over the largest one, up to which a variable has no influence: rounding."""
 
 
 def optimize(
@@ -115,27 +116,11 @@ def optimize(
     penalty = Penalty.plain(solver.penalty if solver.penalty is not None else weight, starts, constraint_count)
     _warn_of_idle(downhill, vectors, penalty, chosen)
 
-    history: list[np.ndarray] = []
-    bar = _Bar(solver.iterations, progress)
-    reason, active, unsettled = "", np.ones(starts, bool), np.full(starts, np.inf)
-    ended = vectors
-    losses, violations = np.full((2, starts), np.inf)
-    for number in range(1, ROUNDS + 1):
-        vectors, reason = _search(downhill, vectors, penalty, active, solver, history, bar)
-        verdict = downhill.judge(vectors, penalty.shifts)
-        better = _better(verdict.losses, verdict.violations, losses, violations)
-        ended = np.where(better[:, None], vectors, ended)
-        losses, violations = np.where(better, (verdict.losses, verdict.violations), (losses, violations))
-        best = _rank(losses, violations)
-        met = solver.target is not None and violations[best] <= MET and losses[best] <= solver.target
-        if number > 1:
-            reason += f", in the last of {number} searches for what constraints touch"
-        active = worth_more(penalty, verdict)
-        if met or not active.any():
-            break
-        penalty, unsettled = renewed(penalty, verdict, unsettled), verdict.unsettled
+    bar = ProgressBar(solver.iterations, progress)
+    designs, reason, history = search_with_multipliers(downhill, vectors, penalty, solver, bar)
     bar.close()
-    vector = ended[best]
+    losses, violations, best = designs.losses, designs.violations, designs.best
+    vector = designs.vectors[best]
     motion, found, misfits = problem.motion(vector)
     if violations[best] > MET:
         reason += (
@@ -182,37 +167,6 @@ def _best_of(pool: np.ndarray, verdict: Verdict, starts: int) -> tuple[np.ndarra
     return pool[np.array(order)], weight
 
 
-def _search(downhill: Solver, vectors, penalty: Penalty, active, stop: Optimiser, history, bar):
-    """Improve the active starts; give all designs, and why the search ended. A start that is done, or that at its pace
-    will not reach the best one in the iterations left, retires and costs nothing more."""
-    state = downhill.begin(vectors, penalty)
-    iterations, tolerance, target = stop.iterations, stop.tolerance, stop.target
-    last = np.full(len(vectors), np.finfo(float).max)
-    for done in range(CHUNK, iterations + CHUNK, CHUNK):
-        state, losses = downhill.advance(state, penalty, active)
-        history.append(losses)
-        now = np.where(active, losses[-1], last)
-        least = float(np.min(now))
-        bar.show(done, least)
-        if target is not None and least <= target:
-            found = downhill.judge(downhill.vectors(state), penalty.shifts)
-            if np.any((found.losses <= target) & (found.violations <= MET)):
-                return downhill.vectors(state), f"the target {target:g} was reached after {done} iterations"
-        settled = (now >= last - tolerance * np.abs(last)) | (now <= 1e-30)
-        with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
-            expected = now * np.minimum(now / last, 1.0) ** ((iterations - done) / CHUNK)
-        hopeless = (expected > least) & (done >= PATIENCE) & (now > least * (1 + 1e-6))
-        active = active & ~(settled | hopeless)
-        last = now
-        if not active.any():
-            return downhill.vectors(state), (
-                f"converged after {done} iterations: every start improved by less than {tolerance:g} relative in "
-                f"{CHUNK} of them, or too slowly to reach the best one"
-            )
-    improving = f"{active.sum()} starts were" if active.sum() > 1 else "1 start was"
-    return downhill.vectors(state), f"all {iterations} iterations were used; {improving} still improving"
-
-
 def _violated(gaps: list[tuple[str, Any]], margins: list[tuple[str, Any]]) -> str:
     """Say what a design violates, the most first, and what may be done."""
     most = {name: float(np.max(rows, initial=0.0)) for name, rows in gaps}
@@ -222,20 +176,8 @@ def _violated(gaps: list[tuple[str, Any]], margins: list[tuple[str, Any]]) -> st
     return f"{said}: give more starts, wider bounds, or a larger penalty= of the solver"
 
 
-def _better(losses, violations, losses_before, violations_before):
-    """Find the starts whose design is feasible at less loss than before, or else violates less."""
-    feasible, feasible_before = violations <= MET, violations_before <= MET
-    return np.where(feasible, ~feasible_before | (losses < losses_before), violations < violations_before)
-
-
-def _rank(losses, violations) -> int:
-    """Find the best feasible design; the least violation where none is feasible."""
-    losses = np.where(np.isfinite(losses), losses, np.inf)
-    feasible = violations <= MET
-    return int(np.argmin(np.where(feasible, losses, np.inf)) if feasible.any() else np.argmin(violations))
-
-
 def _warn_of_idle(downhill: Solver, vectors, penalty: Penalty, chosen: Variables) -> None:
+    """Warn of variables without influence on the loss of any start."""
     slopes = np.asarray(downhill.slopes(downhill.begin(vectors, penalty)))
     influence = np.max(np.abs(slopes), axis=0)
     # where terms cancel, as the mean does in a relative error, rounding is left of what is none
@@ -247,26 +189,3 @@ def _warn_of_idle(downhill: Solver, vectors, penalty: Penalty, chosen: Variables
             "nothing will change there; leave it out, or let the loss depend on it",
             stacklevel=3,
         )
-
-
-class _Bar:
-    """A bar of progress on a terminal."""
-
-    def __init__(self, iterations: int, wanted: bool | None):
-        self.bar: Any = None
-        if sys.stderr.isatty() if wanted is None else wanted:
-            from rich.console import Console
-            from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
-
-            columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
-            self.bar = Progress(*columns, console=Console(stderr=True))
-            self.bar.start()
-            self.task = self.bar.add_task("compiling", total=iterations)
-
-    def show(self, done: int, least: float) -> None:
-        if self.bar:
-            self.bar.update(self.task, completed=done, description=f"loss {least:.3e}")
-
-    def close(self) -> None:
-        if self.bar:
-            self.bar.stop()

@@ -34,7 +34,7 @@ HOPELESS = 1e6
 
 
 class Judged(NamedTuple):
-    """A design, judged."""
+    """What a design loses and violates, without a penalty."""
 
     rows: Float[Array, " rows"]
     """Residuals of a sum of squares; a single loss otherwise."""
@@ -117,7 +117,7 @@ class Problem:
         )
 
     def weighted(self, vector, penalty: Penalty) -> Weighted:
-        """Compute all that a sum of squares adds up."""
+        """Compute residuals and violations, weighted so that the sum of their squares is what is minimised."""
         judged, root = self.judge(vector), jnp.sqrt(penalty.weight)
         return Weighted(judged.rows, root * judged.gaps, root * jnp.maximum(penalty.shifts - judged.margins, 0.0))
 

@@ -1,4 +1,4 @@
-"""What an outer solver is to `optimize`: many starts, of which only those still active are computed."""
+"""The interface of `optimize` to a solver: all starts are improved together, and only the active ones are computed."""
 
 from __future__ import annotations
 
@@ -14,27 +14,27 @@ from jaxkin.design.augmented_lagrangian import Penalty, Verdict
 from jaxkin.design.variables import Variables
 
 CHUNK = 10
-"""Iterations between two looks at the losses."""
+"""Iterations after which starts may retire, and the search may end."""
 TOGETHER = 8
-"""Designs that go through one call of the compiled program at most: few wait for the slowest, and none for retired
+"""Largest number of designs of one call of the compiled program: few wait for the slowest, and none for retired
 starts."""
-
 KEPT = 16
-"""Programs of problems that are kept, each for all problems of the same structure; those used last."""
+"""Number of programs that are kept, those used last: each serves all problems of one structure."""
 
 
 class Solver(NamedTuple):
-    """A way downhill, for all starts."""
+    """A minimiser of the loss with its penalty, for all starts; its state is of a type of its own."""
 
     begin: Callable[[Any, Penalty], Any]
-    """The state for some vectors and what violations cost."""
+    """Make the state for vectors (starts, variables) and what violations cost."""
     advance: Callable[[Any, Penalty, Bool[np.ndarray, " starts"]], tuple[Any, Float[np.ndarray, "iterations starts"]]]
-    """Some iterations of the active starts; the state, and the losses after each, nan for the others."""
+    """Take `CHUNK` iterations of the active starts; returns the state and the losses after each, NaN for others."""
     vectors: Callable[[Any], Float[np.ndarray, "starts variables"]]
+    """Return the designs of a state."""
     slopes: Callable[[Any], Float[np.ndarray, "starts variables"]]
-    """Zero where a variable has no influence."""
+    """Return numbers of the size of the derivatives in a state: zero where a variable has no influence."""
     judge: Callable[[Any, Float[np.ndarray, "starts constraints"]], Verdict]
-    """Losses and violations of some vectors, for given shifts."""
+    """Compute losses and violations of vectors, for given shifts."""
 
 
 def in_groups(

@@ -88,7 +88,6 @@ class Variables:
         names = []
         for entry in self.entries:
             label = entry.key if isinstance(entry.key, str) else "(" + ", ".join(map(str, entry.key)) + ")"
-            label = label if entry.group != "extras" else f"{label}"
             names += [label + "".join(f"[{i}]" for i in index) for index in np.ndindex(entry.shape)]
         return names
 

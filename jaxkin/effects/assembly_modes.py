@@ -1,4 +1,9 @@
-"""All assembly modes of a mechanism for given inputs: the closed poses, whether or not a motion connects them."""
+"""All assembly modes of a mechanism for given inputs: the closed poses, whether or not a motion connects them.
+
+`assembly_modes` checks the drive, and sweeps to the pose on the branch. `mode_search.find_modes` finds the closed poses
+of each loop group; those of different loop groups are combined each with each. (`jaxkin.mobility.assembly_modes` only
+asks, on the host, whether open loops may close in other ways near the assembled pose.)
+"""
 
 from __future__ import annotations
 
@@ -19,7 +24,7 @@ from jaxkin._names import listed
 from jaxkin._traced import traced
 from jaxkin.effects.mode_plot import draw_modes
 from jaxkin.effects.mode_search import FoundPoses, PoseFeatures, Starts, find_modes, wrap_angles
-from jaxkin.effects.pose_plot import save_rows
+from jaxkin.effects.pose_plot import save_displacements
 from jaxkin.linkage.coordinates import coordinate, resolve
 from jaxkin.linkage.host_closure import ClosedLoops
 from jaxkin.mechanism.describe import why_infeasible
@@ -50,12 +55,12 @@ class AssemblyMode:
 
     @property
     def name(self) -> str:
-        """ "mode 1" and so on."""
+        """Name of the mode: "mode 1" and so on."""
         return self.modes.names[self.index]
 
     @property
     def signs(self) -> str:
-        """A plus or minus for each group of loops with a formula, in the order of the plan: the sides of its dyads."""
+        """A plus or minus for each group of loops with a formula, in the order of the plan: the sign of its root."""
         return self.modes.signs[self.index]
 
     @property
@@ -69,7 +74,7 @@ class AssemblyMode:
         return float(self.modes.motion.residual[self.index])
 
     def mechanism(self) -> Mechanism:
-        """The mechanism assembled in this mode: displacements, those of the drive too, count from there."""
+        """Assemble the mechanism in this mode: displacements, those of the drive too, count from there."""
         return self.modes.motion.mechanism.at(self.modes.motion, self.index)
 
 
@@ -104,7 +109,7 @@ class AssemblyModes:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """ "mode 1" and so on."""
+        """Names of the modes: "mode 1" and so on."""
         return tuple(f"mode {number}" for number in range(1, len(self) + 1))
 
     @property
@@ -167,10 +172,7 @@ class AssemblyModes:
 
     def save(self, path: str | Path) -> Path:
         """Write the displacements of all joints as comma-separated values, a row a mode; returns the path."""
-        joints = self.motion.mechanism.all_joints
-        names = [f"{joint.name}.{name}" for joint in joints for name in joint.coordinates]
-        rows = np.concatenate([np.asarray(rows) for rows in self.motion.displacements], axis=1)
-        return save_rows(names, rows.T, Path(path))
+        return save_displacements(self.motion, Path(path))
 
 
 def assembly_modes(
@@ -250,7 +252,7 @@ def _combined(
 ) -> AssemblyModes:
     """Combine the poses of all loop groups, which do not depend on each other, each with each.
 
-    The first is on the branch of the assembled pose if `assembled`.
+    The first combination is on the branch of the assembled pose if `assembled`.
     """
     count = math.prod(len(found.displacements) for found in searched)
     if count > MAX_MODES:
@@ -281,11 +283,9 @@ def _combined(
         options=starts.options,
         swept=False,
     )
-    complete = all(found.by_formulas for found in searched)
-    counts = [found.counts if not found.by_formulas else None for found in searched]
-    lists = (
-        [min(int(own[k]) for own, k in zip(counts, choice, strict=True) if own is not None) for choice in which]
-        if not complete
-        else []
-    )
-    return AssemblyModes(given, motion, tuple(signs), tuple(lists), complete, 0 if complete else starts.tries)
+    from_starts = [number for number, found in enumerate(searched) if not found.by_formulas]
+    if not from_starts:
+        return AssemblyModes(given, motion, tuple(signs), (), True, 0)
+    # a combination was found as often as the one of its poses that was found least
+    counts = (min(int(searched[number].counts[choice[number]]) for number in from_starts) for choice in which)
+    return AssemblyModes(given, motion, tuple(signs), tuple(counts), False, starts.tries)

@@ -174,7 +174,7 @@ def _result(
 
 
 def _named(names: Sequence[str], row: Float[np.ndarray, " unknowns"]) -> dict[str, float]:
-    """The unknowns that take part in a direction, and by how much."""
+    """List the unknowns that take part in a direction, and by how much."""
     most = np.abs(row).max()
     return {name: float(each) for name, each in zip(names, row, strict=True) if abs(each) > PART_OF * most}
 

@@ -36,7 +36,7 @@ class Kind:
     """Of a coordinate: which of its joint."""
 
     def residual(self, motion: Motion, measured: Array, markers: Mapping[Target, Any]) -> Float[Array, "poses _"]:
-        """How far the motion is from the measured values: computed less measured, radians and lengths.
+        """Compute how far the motion is from the measured values: computed less measured, radians and lengths.
 
         Angles differ by less than half a turn. Of rotations it is the rotation vector, sin(angle) long; the translation
         of a pose is that of the middle of the joints of its part.
@@ -133,7 +133,7 @@ def _check_rigid(kind: Kind, array: np.ndarray) -> None:
 
 
 def _deviations(kinds: list[Kind], sigma: Any) -> list[np.ndarray]:
-    """The standard deviation of each number of the residuals; ones where they are not given, and all of one unit."""
+    """List the standard deviations of all residuals; ones where they are not given, and all of one unit."""
     alike = len({length for kind in kinds for length in kind.lengths}) == 1
     if sigma is None or not isinstance(sigma, Mapping):
         if not alike:

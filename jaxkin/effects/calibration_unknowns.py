@@ -141,7 +141,7 @@ def unknowns_of(
 
 
 def nominal_values(mechanism: Mechanism, unknowns: Unknowns) -> Float[np.ndarray, " unknowns"]:
-    """What the unknowns are counted from: lengths and markers as given, zeros for frames."""
+    """List the values from which the unknowns are counted: lengths and markers as given, zeros for frames."""
     lengths = [float(length_now(mechanism.linkage, key)) for key in unknowns.lengths]
     zeros = [0.0 for *_, parts in unknowns.frames for _ in parts]
     return np.array([*lengths, *zeros, *(x for marker in unknowns.markers for x in marker.at or ())])

@@ -55,7 +55,7 @@ class CouplerCurve:
     """Axes of the plane of the curve; None where it has none."""
 
     def __str__(self) -> str:
-        """A line for the curve, and one for each cusp and crossing."""
+        """Describe the curve in a line, and each cusp and crossing in one."""
         shape = "plane" if self.plane is not None else "not plane, so that crossings were not looked for"
         lines = [f"Curve of a point of {self.part} over {self.drive}, {len(self.inputs)} poses, {shape}"]
         for cusp in self.cusps:

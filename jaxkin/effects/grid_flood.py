@@ -137,7 +137,7 @@ class _Front:
             x[which] -= TURN * np.round(x[which] / TURN)
 
     def _pairs(self, newest: Int[np.ndarray, " nodes"]) -> tuple[np.ndarray, np.ndarray]:
-        """The steps from these nodes to their unknown neighbours in the grid: numbers of their ends."""
+        """List the steps from these nodes to their unknown neighbours in the grid, by the numbers of their ends."""
         which, end = neighbours(newest, self.shape)
         unknown = ~self.known[end]
         return newest[which[unknown]], end[unknown]

@@ -10,7 +10,8 @@ import numpy as np
 
 from jaxkin._names import listed
 from jaxkin.effects.mode_search import SAME, PoseFeatures
-from jaxkin.effects.motion_curve import FIRST_STEP, Curve, Here
+from jaxkin.effects.motion_curve import FIRST_STEP, Curve, CurvePoint
+from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.trig import TURN
 from jaxkin.joints.joint import Joint
@@ -22,9 +23,9 @@ if TYPE_CHECKING:
 MAX_STEPS = 20_000
 """Most steps in one direction: some 4000 radians and characteristic lengths of all coordinates together."""
 MAX_TURNS = 64
-"""Full turns of a drive after which no limit is expected."""
+"""Full turns of a driven angle after which no limit is expected."""
 FARTHEST = 100.0
-"""Displacement of a slide after which no limit is expected, characteristic lengths."""
+"""Displacement of a driven slide after which no limit is expected, characteristic lengths."""
 BESIDE = 0.01
 """Displacement to a pose beside the limit of a drive that is proposed, radians and characteristic lengths. The drive is
 then 1e-5 to 1e-4 from its limit: far above the 1e-10 to which limits are found."""
@@ -54,20 +55,26 @@ class CoordinateRange(NamedTuple):
     high: float
 
 
-class Found(NamedTuple):
-    """Where a drive ends."""
+class FoundLimit(NamedTuple):
+    """Where the range of a drive ends on one side."""
 
     kind: LimitKind
-    here: Here
+    here: CurvePoint
+    """The pose there; for `LimitKind.NONE` the last one that was reached."""
     column: int | None
-    """The column whose range ends."""
+    """The column whose range ends; None for other kinds."""
     repeats: bool
     """Whether the mechanism is in its assembled pose again, after full turns of the drive."""
 
 
 def find_limit(
-    curve: Curve, begun: Here, direction: float, ranges: Sequence[CoordinateRange], turns: bool, features: PoseFeatures
-) -> Found:
+    curve: Curve,
+    begun: CurvePoint,
+    direction: float,
+    ranges: Sequence[CoordinateRange],
+    turns: bool,
+    features: PoseFeatures,
+) -> FoundLimit:
     """Follow the drive in a direction, 1 or -1, from the assembled pose to its first limit.
 
     `turns` says whether the drive is an angle, so that the motion may repeat after full turns.
@@ -76,7 +83,7 @@ def find_limit(
     for _ in range(MAX_STEPS):
         taken = curve.step(here, length)
         if taken is None:
-            return Found(LimitKind.LOST, here, None, False)
+            return FoundLimit(LimitKind.LOST, here, None, False)
         there, length = taken
         located = []
         for event in _events(curve, direction, ranges, number if turns else None):
@@ -86,26 +93,26 @@ def find_limit(
             _, at, first = min(located, key=lambda each: each[0])
             repeats = first.kind is LimitKind.NONE and _is_home(curve, at, features)
             if first.kind is not LimitKind.NONE or repeats or number == MAX_TURNS:
-                return Found(first.kind, at, first.column, repeats)
+                return FoundLimit(first.kind, at, first.column, repeats)
             number += 1
         if not turns and abs(there.q[curve.drive]) > FARTHEST:
             break
         here, length = there, curve.next_length(here, there, length)
-    return Found(LimitKind.NONE, here, None, False)
+    return FoundLimit(LimitKind.NONE, here, None, False)
 
 
 class _Event(NamedTuple):
-    """A function of the pose that is positive before a limit, and not behind it."""
+    """A function of the pose whose change from positive to negative ends the motion, or completes a full turn."""
 
     kind: LimitKind
-    value: Callable[[Here], float]
+    value: Callable[[CurvePoint], float]
     column: int | None = None
-    rate: Callable[[Here], float] | None = None
+    rate: Callable[[CurvePoint], float] | None = None
     """Derivative of the value by the arc length; None where the value is not looked at between the ends of a step."""
 
 
 def _events(curve: Curve, direction: float, ranges: Sequence[CoordinateRange], number: int | None) -> list[_Event]:
-    """List what ends the motion; `number` is that of the full turn of the drive that comes next."""
+    """List what ends the motion; `number` is that of the next full turn of the drive, None for a slide."""
     drive = curve.drive
     events = [_Event(LimitKind.LOCKS, lambda here: direction * float(here.tangent[drive]))]
     for column, low, high in ranges:
@@ -124,10 +131,11 @@ def _events(curve: Curve, direction: float, ranges: Sequence[CoordinateRange], n
     return events
 
 
-def _crossed(curve: Curve, here: Here, there: Here, length: float, event: _Event) -> float | None:
-    """Find an arc length within a step at which a limit is passed; None where the step does not pass it.
+def _crossed(curve: Curve, here: CurvePoint, there: CurvePoint, length: float, event: _Event) -> float | None:
+    """Find an arc length within a step at which the value of an event is negative; None where it is nowhere.
 
-    A coordinate that turns back within the step may be beyond its range between its ends: then it is at its extremum.
+    A coordinate that turns back within the step may be beyond its range only between the ends of the step: its extremum
+    is looked at, too.
     """
     if event.value(there) < 0:
         return length
@@ -137,13 +145,13 @@ def _crossed(curve: Curve, here: Here, there: Here, length: float, event: _Event
     return s if event.value(extremum) < 0 else None
 
 
-def _is_home(curve: Curve, at: Here, features: PoseFeatures) -> bool:
-    """Tell whether all parts are where they are in the assembled pose, apart from idle freedoms."""
+def _is_home(curve: Curve, at: CurvePoint, features: PoseFeatures) -> bool:
+    """Tell whether all parts are in their assembled poses again, but for idle freedoms."""
     home, there = features.of(np.stack([np.zeros(len(at.q)), at.q]), curve.free)
     return bool(np.abs(home - there).max(initial=0.0) <= SAME)
 
 
-def why_locked(joints: Mapping[int, Joint], curve: Curve, here: Here) -> tuple[tuple[str, ...], str]:
+def why_locked(joints: Mapping[int, Joint], curve: Curve, here: CurvePoint) -> tuple[tuple[str, ...], str]:
     """Name the joints that still move where the drive locks, and say how they stand.
 
     `joints` are those of the loops, by their numbers.
@@ -165,17 +173,16 @@ def why_locked(joints: Mapping[int, Joint], curve: Curve, here: Here) -> tuple[t
 
 
 def _kind(joint: Joint, coordinate: int) -> str:
-    """ "rotate", "translate" or "screw" of a coordinate of a joint."""
-    first = 0
-    for name in joint.movements:
+    """Look up the kind of a coordinate of a joint: "rotate", "translate" or "screw"."""
+    for name, own in zip(joint.movements, coordinate_ranges(joint.movements), strict=True):
         for element in MOVEMENTS[name].elements:
-            if first + element.coordinate == coordinate:
+            if own[element.coordinate] == coordinate:
                 return element.kind
-        first += len(MOVEMENTS[name].coordinates)
     raise ValueError(f"joint {joint.name!r} has no coordinate {coordinate}")
 
 
 def _and(names: Sequence[str]) -> str:
+    """Join names for a sentence: "A, B and C"."""
     return listed(names) if len(names) > 8 else " and ".join([", ".join(names[:-1]), names[-1]] if names[1:] else names)
 
 
@@ -208,5 +215,6 @@ def why_singular(mechanism: Mechanism, curve: Curve, driven: Sequence[tuple[int,
 
 
 def _full_name(mechanism: Mechanism, place: tuple[int, int]) -> str:
+    """Return the name "joint.coordinate" of a coordinate."""
     joint, k = place
     return f"{mechanism.all_joints[joint].name}.{mechanism.all_joints[joint].coordinates[k]}"

@@ -1,4 +1,9 @@
-"""The reachable range of a drive about the assembled pose: where the mechanism locks, or a joint range ends."""
+"""The reachable range of a drive about the assembled pose: where the mechanism locks, or a joint range ends.
+
+`limits` checks what is asked. `limit_search.find_limit` follows the drive to either side, along a `motion_curve.Curve`
+of closed poses, until a function of the pose changes its sign: the rate of the drive, or the distance of a coordinate
+from an end of its range. The rest puts into words what was found.
+"""
 
 from __future__ import annotations
 
@@ -14,11 +19,11 @@ from jaxtyping import Float
 from jaxkin._arguments import by_name, check_mechanism, several
 from jaxkin._names import listed
 from jaxkin._traced import traced
-from jaxkin.effects.limit_search import CoordinateRange, Found, LimitKind, find_limit, why_locked, why_singular
+from jaxkin.effects.limit_search import CoordinateRange, FoundLimit, LimitKind, find_limit, why_locked, why_singular
 from jaxkin.effects.mode_plot import draw_modes
 from jaxkin.effects.mode_search import PoseFeatures
 from jaxkin.effects.motion_curve import Curve
-from jaxkin.effects.pose_plot import save_rows
+from jaxkin.effects.pose_plot import save_displacements
 from jaxkin.geometry.movements import is_length
 from jaxkin.linkage.coordinates import coordinate, coordinates
 from jaxkin.linkage.host_closure import ClosedLoops
@@ -86,10 +91,7 @@ class Limits:
 
     def save(self, path: str | Path) -> Path:
         """Write the displacements of all joints at the limits and as assembled as comma-separated values."""
-        joints = self.motion.mechanism.all_joints
-        names = [f"{joint.name}.{name}" for joint in joints for name in joint.coordinates]
-        rows = np.concatenate([np.asarray(rows) for rows in self.motion.displacements], axis=1)
-        return save_rows(names, rows.T, Path(path))
+        return save_displacements(self.motion, Path(path))
 
     def _value(self, value: float) -> str:
         return f"{value:.9g} {self.unit}".rstrip() if np.isfinite(value) else f"{value}"
@@ -141,7 +143,7 @@ def limits(
     given = _ranges(mechanism, ranges or {})
     group = next((each for each in linkage.structure.loop_groups if place[0] in each.joints), None)
     if group is None:
-        return _alone(mechanism, name, place, given)
+        return _limits_of_joint(mechanism, name, place, given)
     loops = ClosedLoops(linkage.joints, linkage.structure, group, linkage.couplings)
     freedoms = loop_freedoms(linkage)[linkage.structure.loop_groups.index(group)]
     held = [loops.columns.index(each) for each in list(driven.values())[1:] if each in loops.columns]
@@ -153,7 +155,7 @@ def limits(
             (loops.columns.index(each), ends) for each, ends in given.items() if each in loops.columns
         )
     ]
-    found: list[Found] = []
+    found: list[FoundLimit] = []
     for direction in (1.0, -1.0):
         begun = curve.begin(direction)
         if begun is None:
@@ -163,11 +165,11 @@ def limits(
         if found[-1].repeats:
             break
     upper, lower = found[0], found[-1]
-    return _told(mechanism, name, place, curve, lower, upper)
+    return _limits_in_loops(mechanism, name, place, curve, lower, upper)
 
 
 def _ranges(mechanism: Mechanism, given: Mapping[str, Sequence[float]]) -> dict[Place, tuple[float, float]]:
-    """Ranges of coordinates: those of joints, replaced by those given.
+    """List the ranges of coordinates: those of joints, replaced by those given.
 
     Raises ValueError where they exclude the assembled pose.
     """
@@ -201,8 +203,10 @@ def _is_length(mechanism: Mechanism, place: Place) -> bool:
     return is_length(mechanism.all_joints[joint].coordinates[k])
 
 
-def _alone(mechanism: Mechanism, name: str, place: Place, given: Mapping[Place, tuple[float, float]]) -> Limits:
-    """The range of a drive that is in no loop: that of its joint."""
+def _limits_of_joint(
+    mechanism: Mechanism, name: str, place: Place, given: Mapping[Place, tuple[float, float]]
+) -> Limits:
+    """Make the limits of a drive that is in no loop: the range of its joint."""
     joint, k = place
     ends = []
     for value in given.get(place, (-np.inf, np.inf)):
@@ -219,13 +223,16 @@ def _alone(mechanism: Mechanism, name: str, place: Place, given: Mapping[Place, 
     return _limits(mechanism, name, place, ends[0], ends[1], not length and not any(end.coordinates for end in ends))
 
 
-def _told(mechanism: Mechanism, name: str, place: Place, curve: Curve, lower: Found, upper: Found) -> Limits:
-    """Put limits into words and into the coordinates of all joints."""
+def _limits_in_loops(
+    mechanism: Mechanism, name: str, place: Place, curve: Curve, lower: FoundLimit, upper: FoundLimit
+) -> Limits:
+    """Make the limits of a drive in loops, in words and in coordinates of all joints."""
     ends = [_limit(mechanism, name, curve, end, side) for end, side in ((lower, -np.inf), (upper, np.inf))]
     return _limits(mechanism, name, place, ends[0], ends[1], upper.repeats or lower.repeats)
 
 
-def _limit(mechanism: Mechanism, name: str, curve: Curve, end: Found, side: float) -> Limit:
+def _limit(mechanism: Mechanism, name: str, curve: Curve, end: FoundLimit, side: float) -> Limit:
+    """Say in words what ends the range on one side, and where all joints are; `side` is -inf or inf."""
     loops, joints = curve.loops, mechanism.all_joints
     q = end.here.q * loops.units
     at = float(q[curve.drive])
@@ -247,7 +254,7 @@ def _limit(mechanism: Mechanism, name: str, curve: Curve, end: Found, side: floa
 
 
 def _limits(mechanism: Mechanism, name: str, place: Place, lower: Limit, upper: Limit, full_turn: bool) -> Limits:
-    """Make the motion of the limits that there are, with the assembled pose between them."""
+    """Make the result, with the motion of the limits that there are and the assembled pose between them."""
     home = {joint.name: np.zeros(joint.freedoms) for joint in mechanism.all_joints}
     poses = [*([lower.coordinates] if lower.coordinates else []), home]
     poses += [upper.coordinates] if upper.coordinates else []
@@ -261,7 +268,7 @@ def _limits(mechanism: Mechanism, name: str, place: Place, lower: Limit, upper: 
 
 
 def _residual(mechanism: Mechanism, pose: Mapping[str, Float[np.ndarray, " _"]]) -> float:
-    """Square root of Eq. 12 of all loops in a pose."""
+    """Compute the square root of Eq. 12 over all loops in a pose."""
     linkage, squares = mechanism.linkage, 0.0
     for group in linkage.structure.loop_groups:
         loops = ClosedLoops(linkage.joints, linkage.structure, group, linkage.couplings)

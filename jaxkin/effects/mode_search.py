@@ -16,6 +16,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float, Int
 
+from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.linkage.host_closure import ClosedLoops, Row
 from jaxkin.mechanism.drive_plan import DrivenLoopGroup
@@ -24,7 +25,7 @@ from jaxkin.solve.closed_form.formula_displacements import joint_displacements
 from jaxkin.solve.closed_form.group_formulas import GroupFormula, group_formulas
 from jaxkin.solve.closed_form.solve_groups import residual_norm, solve_groups
 from jaxkin.solve.closure.closure import scaled_geometry
-from jaxkin.solve.closure.joint_coordinates import ball_turns, joint_coordinates
+from jaxkin.solve.closure.joint_coordinates import ball_rotations, joint_coordinates
 from jaxkin.solve.correctors.levenberg_marquardt import levenberg_marquardt
 from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.options import SolverOptions
@@ -78,9 +79,9 @@ class Starts(NamedTuple):
 
 
 class PoseFeatures:
-    """Where the joint frames of a loop group are on both of their parts: points and directions that tell poses apart.
+    """Numbers that tell the poses of a loop group apart: where its joint frames are, on both of their parts.
 
-    What an idle freedom moves, such as the directions on a rod that may spin between two balls, is left out.
+    Entries that an idle freedom moves, such as the directions on a rod that may spin between two balls, are left out.
     """
 
     def __init__(self, loops: ClosedLoops, idle: int) -> None:
@@ -88,7 +89,7 @@ class PoseFeatures:
         self.loops, self.idle = loops, idle
 
     def at(self, q: Row) -> Float[np.ndarray, " entries"]:
-        """Compute the entries of all frames, lengths over the characteristic length, at scaled coordinates."""
+        """Compute the entries at scaled coordinates: twelve a frame, lengths over the characteristic length."""
         places, rows = self.loops.travel(q).places, []
         for index, each in self.loops.chains.items():
             for part, frame in zip(self.loops.ends[index], (each.frames_1[0], each.frames_2[-1]), strict=True):
@@ -96,7 +97,10 @@ class PoseFeatures:
         return np.concatenate(rows)
 
     def of(self, poses: Float[np.ndarray, "poses columns"], free: list[int]) -> Float[np.ndarray, "poses entries"]:
-        """Compute the features of poses, zero where an idle freedom moves them; `free` columns are not driven."""
+        """Compute the entries at several poses, zero in place of those that an idle freedom moves in any of them.
+
+        `free` are the columns that are not driven.
+        """
         rows = [self.at(q) for q in poses]
         if not rows or not self.idle:
             return np.array(rows).reshape(len(poses), -1)
@@ -140,14 +144,16 @@ def find_modes(
         return FoundPoses(poses, residual, (), weights, by_formulas)
 
     same = SAME if poses.dtype == np.float64 else SAME_SINGLE
-    labels = group_rows(_unwrapped(loop_group, loops, poses), same)
+    # equal coordinates first, which are many; then equal features, which take longer and count idle freedoms as nothing
+    labels = group_rows(_without_full_turns(loop_group, loops, poses), same)
     rows = _scaled_rows(loop_group, loops, poses[_first_of(labels)])
     home = rows[:1] if reached is not None else np.zeros((1, rows.shape[1]))
     driven = [loop_group.columns[column] for column in system.driven]
     free = [column for column, place in enumerate(loops.columns) if place not in driven]
-    entries = features.of(np.vstack([home, rows]), free)
-    labels = group_rows(entries[1:], same)[labels]
-    order = np.argsort([np.linalg.norm(entries[1:][k] - entries[0]) for k in _first_of(group_rows(entries[1:], same))])
+    at_home, *entries = features.of(np.vstack([home, rows]), free)
+    of_features = group_rows(np.array(entries), same)
+    order = np.argsort([np.linalg.norm(entries[k] - at_home) for k in _first_of(of_features)])
+    labels = of_features[labels]
     representatives = _first_of(labels)[order]
     return FoundPoses(
         poses[representatives],
@@ -159,7 +165,7 @@ def find_modes(
 
 
 def group_rows(rows: Float[np.ndarray, "rows entries"], same: float) -> Int[np.ndarray, " rows"]:
-    """Number the sets of rows that are the same, from 0 in the order of their first rows, and give each row's."""
+    """Label each row with the number of its set of equal rows, which are numbered in the order of their first rows."""
     first: list[int] = []
     labels = np.zeros(len(rows), int)
     for number, row in enumerate(rows):
@@ -171,6 +177,7 @@ def group_rows(rows: Float[np.ndarray, "rows entries"], same: float) -> Int[np.n
 
 
 def _first_of(labels: Int[np.ndarray, " rows"]) -> Int[np.ndarray, " found"]:
+    """List the first row of each set of rows, by its number."""
     return np.unique(labels, return_index=True)[1]
 
 
@@ -184,6 +191,7 @@ def _scaled_rows(
 
 
 def _has_formulas(system: LoopSystem) -> bool:
+    """Tell whether each group has a formula, so that all poses are found by trying the signs of all roots."""
     formulas = group_formulas(system)
     known = all(isinstance(formula, GroupFormula) for formula in formulas)
     return known and 0 < len(formulas) <= MAX_FORMULAS and not system.turned_balls
@@ -218,7 +226,7 @@ def _formula_poses(
 def _from_starts(
     loop_group: DrivenLoopGroup, inputs: Float[np.ndarray, " driven"], starts: Starts
 ) -> tuple[Float[np.ndarray, "poses columns"], Float[np.ndarray, " poses"]]:
-    """Close the loops from random starts."""
+    """Close the loops from random starts: angles and balls turned at random, slides up to `FARTHEST_SLIDE`."""
     system, rows, residuals, rng = loop_group.system, [], [], np.random.default_rng(starts.seed)
     size = min(starts.tries, STARTS_AT_ONCE)
     for _ in range(-(-starts.tries // size)):
@@ -245,15 +253,15 @@ def _closed(
     target = rounding_residual(state.x.dtype, CLOSED_ROUNDINGS)
     begun = drive(system, state, inputs / given)
     found = levenberg_marquardt(problem, begun, options.rescue_steps, target)
-    turns = ball_turns(system, geometry, found.state)
-    x = joint_coordinates(system, joints.frames_1, joints.frames_2, found.state.x * lengths, turns)
+    rotations = ball_rotations(system, geometry, found.state)
+    x = joint_coordinates(system, joints.frames_1, joints.frames_2, found.state.x * lengths, rotations)
     return x, found.residual_norm
 
 
-def _unwrapped(
+def _without_full_turns(
     loop_group: DrivenLoopGroup, loops: ClosedLoops, poses: Float[np.ndarray, "poses columns"]
 ) -> Float[np.ndarray, "poses entries"]:
-    """Cosines and sines of angles, and scaled lengths: equal where coordinates are, up to full turns."""
+    """Compute cosines and sines of angles, and scaled lengths: equal where coordinates are, but for full turns."""
     lengths = np.array(loop_group.system.is_length)
     units = loops.units[[loops.columns.index(place) for place in loop_group.columns]]
     return np.concatenate(
@@ -265,11 +273,9 @@ def wrap_angles(mechanism: Mechanism, rows: Sequence[np.ndarray], driven: Contai
     """Bring the angles of modes from `first` on into (-pi, pi], where a full turn is no displacement."""
     tied = {name for coupling in mechanism.linkage.couplings for name in coupling.coordinates}
     for joint, row in zip(mechanism.all_joints, rows, strict=True):
-        elements, start = [], 0
-        for movement in joint.movements:
-            elements += [(e.kind, start + e.coordinate) for e in MOVEMENTS[movement].elements if e.law is None]
-            start += len(MOVEMENTS[movement].coordinates)
-        for kind, k in elements:
-            name = f"{joint.name}.{joint.coordinates[k]}"
-            if kind == "rotate" and name not in driven and name not in tied:
-                row[first:, k] -= 2 * np.pi * np.ceil(row[first:, k] / (2 * np.pi) - 0.5)
+        for movement, own in zip(joint.movements, coordinate_ranges(joint.movements), strict=True):
+            for element in MOVEMENTS[movement].elements:
+                k = own[element.coordinate]
+                name = f"{joint.name}.{joint.coordinates[k]}"
+                if element.kind == "rotate" and element.law is None and name not in driven and name not in tied:
+                    row[first:, k] -= 2 * np.pi * np.ceil(row[first:, k] / (2 * np.pi) - 0.5)

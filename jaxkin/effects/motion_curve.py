@@ -24,26 +24,28 @@ FIRST_STEP = 0.02
 SHORTEST_STEP = 1e-8
 """Step below which the curve counts as lost."""
 SLOW = 0.1
-"""Part of the drive in the unit tangent below which it is slow."""
-LARGEST_BEND = 0.97
+"""Absolute entry of the drive in the unit tangent below which the drive is slow."""
+LEAST_TANGENT_COSINE = 0.97
 """Least cosine of the angle between the tangents at the ends of a step: 14 degrees."""
 LARGEST_CORRECTION = 0.25
 """Largest ratio of the correction to the length of a step."""
 ACCURACY = 1e-13
-"""To which arc length events are refined: below the rounding of the poses."""
+"""Error of the arc length, radians and characteristic lengths, to which events are refined: below the rounding of the
+poses."""
 RELATIVE = 1e-15
-"""The same over the length of the step: four roundings, the least that Brent's method takes."""
+"""The same over the arc length: four roundings, the least that Brent's method takes."""
 
 
-class Here(NamedTuple):
-    """A point of the curve."""
+class CurvePoint(NamedTuple):
+    """A closed pose on the curve, with its tangent."""
 
     q: Row
     """Scaled coordinates of a closed pose."""
     tangent: Row
     """Unit tangent."""
     sigma: float
-    """Smallest singular value of the closure Jacobian that is not always zero: zero where branches cross."""
+    """Smallest singular value of the closure Jacobian, without those that are zero all along the curve: zero where
+    branches cross."""
 
 
 class Curve:
@@ -55,9 +57,9 @@ class Curve:
         self.free = [k for k in range(len(loops.columns)) if k not in self.held]
 
     def _freedoms(self, q: Row) -> tuple[Float[np.ndarray, "freedoms columns"], float]:
-        """Compute a basis of the rates that keep the loops closed, idle ones too: one more where branches cross.
+        """Compute a basis of the rates that keep the loops closed, and `CurvePoint.sigma`.
 
-        Also returns the singular value of `Here.sigma`.
+        There are as many rates as idle freedoms and one more; where branches cross there are further ones.
         """
         jacobian = self.loops.travel(q).jacobian[:, self.free]
         rank = len(self.free) - 1 - self.idle
@@ -68,11 +70,11 @@ class Curve:
         found[:, self.free] = basis
         return found, float(values[rank - 1]) if rank else np.inf
 
-    def begin(self, direction: float, start: Row | None = None) -> Here | None:
-        """A closed pose, by default the assembled one, with the tangent along which the drive moves in a direction.
+    def begin(self, direction: float, start: Row | None = None) -> CurvePoint | None:
+        """Find the tangent at a closed pose, by default the assembled one, along which the drive rises or falls.
 
-        The direction is 1 or -1. None where the pose is singular: where the drive does not move to first order, or
-        branches cross.
+        It rises where `direction` is 1, and falls where that is -1.
+        None where the pose is singular: where the drive does not move to first order, or branches cross.
         """
         home = np.zeros(len(self.loops.columns)) if start is None else start
         basis, sigma = self._freedoms(home)
@@ -81,12 +83,12 @@ class Curve:
         # the motion of least norm, orthogonal to the idle ones, of which the drive has no part
         tangent = basis.T @ basis[:, self.drive]
         size = float(np.linalg.norm(tangent))
-        return None if size < 1e-6 else Here(home, direction * tangent / size, sigma)
+        return None if size < 1e-6 else CurvePoint(home, direction * tangent / size, sigma)
 
-    def at(self, here: Here, s: float) -> Here | None:
-        """The closed pose nearest to where the tangent leads after the length `s`; None where the loops do not close.
+    def at(self, here: CurvePoint, s: float) -> CurvePoint | None:
+        """Close the loops where the tangent leads after the arc length `s`; None where they do not close.
 
-        Its tangent is, of all rates that keep the loops closed, the one nearest to that before.
+        The tangent there is the projection of that `here` on the rates that keep the loops closed.
         """
         q, found = self.loops.closed(here.q + s * here.tangent, self.held)
         if not found.residual_norm <= self.loops.thresholds.residual:
@@ -94,21 +96,24 @@ class Curve:
         basis, sigma = self._freedoms(q)
         tangent = basis.T @ (basis @ here.tangent)
         size = float(np.linalg.norm(tangent))
-        return None if size < 0.5 else Here(q, tangent / size, sigma)
+        return None if size < 0.5 else CurvePoint(q, tangent / size, sigma)
 
-    def step(self, here: Here, length: float) -> tuple[Here, float] | None:
-        """Take a step of at most this length, shortened until it stays on the curve; None where that fails."""
+    def step(self, here: CurvePoint, length: float) -> tuple[CurvePoint, float] | None:
+        """Take a step of at most this length, shortened until it stays on the curve; None where that fails.
+
+        Returns the pose and the length of the step.
+        """
         while length >= SHORTEST_STEP:
             there = self.at(here, length)
             if there is not None:
                 apart = float(np.linalg.norm(there.q - here.q - length * here.tangent))
-                if apart <= LARGEST_CORRECTION * length and float(there.tangent @ here.tangent) >= LARGEST_BEND:
+                if apart <= LARGEST_CORRECTION * length and float(there.tangent @ here.tangent) >= LEAST_TANGENT_COSINE:
                     return there, length
             length *= 0.5
         return None
 
-    def next_length(self, before: Here, here: Here, length: float) -> float:
-        """The length to try after a step of `length`: at most half of what is left to a pose in which branches cross.
+    def next_length(self, before: CurvePoint, here: CurvePoint, length: float) -> float:
+        """Choose the length to try after a step of `length`: at most half of what is left to where branches cross.
 
         Beside such a pose the curve may turn back sharply, which a long step would not see.
         """
@@ -117,7 +122,7 @@ class Curve:
             longest = min(longest, max(0.5 * length * here.sigma / fall, CROSSING))
         return min(2.0 * length, longest)
 
-    def locate(self, here: Here, length: float, event: Callable[[Here], float]) -> tuple[float, Here]:
+    def locate(self, here: CurvePoint, length: float, event: Callable[[CurvePoint], float]) -> tuple[float, CurvePoint]:
         """Find the arc length within a step at which a function of the pose is zero, and the pose there."""
         from scipy.optimize import root_scalar
 

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from jaxtyping import Float
 
 from jaxkin._files import save_figure, whole
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.motion import Motion
 
 NAMED = 12
 """Lines of one axes that have a colour, a style and a name: more are not told apart."""
@@ -95,3 +98,10 @@ def save_rows(names: Sequence[str], rows: Float[np.ndarray, "rows poses"], path:
     with whole(path) as draft:
         np.savetxt(draft, table, ["%d"] + ["%.9g"] * len(names), ",", header=heading, comments="")
     return path
+
+
+def save_displacements(motion: Motion, path: Path) -> Path:
+    """Write the displacements of all joints of a motion by `save_rows`, a column a coordinate; returns the path."""
+    names = [f"{joint.name}.{name}" for joint in motion.mechanism.all_joints for name in joint.coordinates]
+    rows = np.concatenate([np.asarray(each) for each in motion.displacements], axis=1)
+    return save_rows(names, rows.T, path)

@@ -1,4 +1,9 @@
-"""Velocities, accelerations and jerks: derivatives of a motion along its drive, nested forward."""
+"""Velocities, accelerations and jerks: derivatives of a motion with respect to time, at its known poses.
+
+With u(t) the inputs and q(u) the displacements that the closure equations give, q' = dq/du u' and so on: nested forward
+derivatives of `jaxkin.mechanism.known_motion.follow` along u', u'', ... give the rates of all joints, and those of the
+displacements of the parts (`jaxkin.linkage.joint_motion`) along the rates of the joints give the rates of all parts.
+"""
 
 from __future__ import annotations
 
@@ -30,8 +35,7 @@ from jaxkin.solve.status import Status
 from jaxkin.topology.structure import Structure
 
 NAMES = {1: "Velocities", 2: "Accelerations", 3: "Jerks"}
-"""By the order of the derivative with respect to time."""
-
+"""Order of a derivative with respect to time -> its name."""
 
 Rows = tuple[Float[Array, "poses _"], ...]
 """For each joint of `mechanism.joints` the rates of its displacements, radians or lengths per time."""
@@ -65,9 +69,10 @@ class Rates:
 
     @cached_property
     def matrices(self) -> tuple[tuple[Float[Array, "poses 4 4"], ...], ...]:
-        """Derivatives of the transforms of all parts, in the order of `mechanism.parts`: those by order."""
+        """Derivatives of the transforms of all parts: `matrices[order - 1][part]`, in the order of
+        `mechanism.parts`."""
         linkage = self.motion.mechanism.linkage
-        return _of_parts(linkage.structure, linkage.joints, (self.motion.displacements, *self.orders))
+        return _part_rates(linkage.structure, linkage.joints, (self.motion.displacements, *self.orders))
 
     @property
     def closed(self) -> Bool[Array, " poses"]:
@@ -85,7 +90,7 @@ class Rates:
         return dict(zip(self.motion.mechanism.parts, self.matrices[-1], strict=True))
 
     def __str__(self) -> str:
-        """A line a coordinate: its least and its greatest rate, and where; and where they are not determined."""
+        """Say the least and the greatest rate of each coordinate, and at which poses rates are not determined."""
         lines = [f"{NAMES[self.order]} over {len(self.motion)} poses, for the given ones of {', '.join(self.inputs)}"]
         for name, unit, row in zip(*self._rows(), strict=True):
             if np.isfinite(row).any():
@@ -106,7 +111,7 @@ class Rates:
         return save_rows([f"{name} [{unit}]" for name, unit in zip(names, units, strict=True)], rows, Path(path))
 
     def _rows(self) -> tuple[list[str], list[str], Float[np.ndarray, "coordinates poses"]]:
-        """Names, units and rates of all joint coordinates; NaN at poses that have none (`closed`)."""
+        """List names, units and rates of all joint coordinates; NaN at poses that have none (`closed`)."""
         closed, mechanism = np.asarray(self.closed), self.motion.mechanism
         per = "time" if self.order == 1 else f"time^{self.order}"
         names, units, rows = [], [], []
@@ -119,12 +124,16 @@ class Rates:
         return names, units, np.stack(rows) if rows else np.zeros((0, len(closed)))
 
     def points(self, part: str, point: Sequence[float | int] | np.ndarray | Array) -> Float[Array, "poses 3"]:
-        """Velocity (acceleration, jerk) of a point of a part, given where it is in the assembled pose; world axes."""
+        """Compute velocity (acceleration, jerk) of a point of a part, given where it is in the assembled pose.
+
+        World axes; the unit of the mechanism per time to the power of the order.
+        """
         matrices = self.transforms[_known(self.motion, part)]
         return jnp.einsum("pij,j->pi", matrices[:, :3, :3], as_point(point)) + matrices[:, :3, 3]
 
     def angular(self, part: str) -> Float[Array, "poses 3"]:
-        """Angular velocity (acceleration, jerk) of a part, world axes, radians per time to the power of the order."""
+        """Compute angular velocity (acceleration, jerk) of a part; world axes, radians per time to the power of the
+        order."""
         rotation = self.motion.transforms[_known(self.motion, part)][:, :3, :3]
         number = self.motion.mechanism.parts.index(part)
 
@@ -148,7 +157,7 @@ jax.tree_util.register_dataclass(Rates, data_fields=["motion", "inputs", "orders
 
 
 def velocities(motion: Motion, rates: Mapping[str, Any]) -> Rates:
-    """Find the velocities of all joints and parts in every pose of a motion, for given rates of its drive.
+    """Compute the velocities of all joints and parts in every pose of a motion, for given rates of its drive.
 
     `rates` maps a driven "joint" or "joint.coordinate" to one number or one a pose, in radians or lengths per time;
     driven coordinates that it does not name are at rest. Velocities follow from the poses of the motion, which are not
@@ -160,7 +169,7 @@ def velocities(motion: Motion, rates: Mapping[str, Any]) -> Rates:
 
 
 def accelerations(motion: Motion, rates: Mapping[str, Any], accelerations: Mapping[str, Any] | None = None) -> Rates:
-    """Find the accelerations of all joints and parts, second derivatives with respect to time.
+    """Compute the accelerations of all joints and parts, second derivatives with respect to time.
 
     `rates` and `accelerations` are those of the driven coordinates, as of `velocities`; without `accelerations` the
     rates are constant.
@@ -174,7 +183,7 @@ def jerks(
     accelerations: Mapping[str, Any] | None = None,
     jerks: Mapping[str, Any] | None = None,
 ) -> Rates:
-    """Find the jerks of all joints and parts, third derivatives with respect to time.
+    """Compute the jerks of all joints and parts, third derivatives with respect to time.
 
     `rates`, `accelerations` and `jerks` are those of the driven coordinates, as of `velocities`; without them
     accelerations and jerks of the drive are zero.
@@ -183,13 +192,16 @@ def jerks(
 
 
 def _rates(motion: Motion, *given: Inputs) -> Rates:
-    """Compute the rates of all joints, of as many orders as are given."""
-    return Rates(motion, given[-1], _of_joints(*known_motion(motion), (motion.inputs, *given)))
+    """Compute the rates of all joints, of as many orders as rates of the inputs are given."""
+    return Rates(motion, given[-1], _joint_rates(*known_motion(motion), (motion.inputs, *given)))
 
 
 @partial(whole_program, static=(0,))
-def _of_joints(drive: KnownDrive, known: KnownMotion, inputs: tuple[Inputs, ...]) -> tuple[Rows, ...]:
-    """Compute the rates of all joints by order; NaN at poses that are NONFINITE, and where given rates are."""
+def _joint_rates(drive: KnownDrive, known: KnownMotion, inputs: tuple[Inputs, ...]) -> tuple[Rows, ...]:
+    """Compute the rates of all joints by order; NaN at NONFINITE poses, and where a given rate is not finite.
+
+    `inputs` are displacements and rates of the driven coordinates, by order.
+    """
     finite = known.status != Status.NONFINITE.value
     for rate in jax.tree.leaves(inputs[1:]):
         finite &= jnp.isfinite(rate)
@@ -197,16 +209,19 @@ def _of_joints(drive: KnownDrive, known: KnownMotion, inputs: tuple[Inputs, ...]
 
 
 @partial(whole_program, static=(0,))
-def _of_parts(
+def _part_rates(
     structure: Structure, joints: tuple[Joint, ...], orders: tuple[Rows, ...]
 ) -> tuple[tuple[Float[Array, "poses 4 4"], ...], ...]:
-    """Differentiate the transforms of all parts, by order; NaN where the rate of any joint is."""
+    """Differentiate the transforms of all parts, by order; NaN where the rate of any joint is not finite.
+
+    `orders` are displacements and rates of all joints, by order.
+    """
     finite = jnp.all(jnp.stack([jnp.all(jnp.isfinite(rows), axis=1) for rows in orders[-1]]), axis=0)
     return nan_where_not_finite(derivatives(partial(transforms, structure, joints), orders), finite)
 
 
 def tangents_of(motion: Motion, rates: Mapping[str, Any]) -> Inputs:
-    """Rates of all driven displacements, one a pose, from those that were given by name."""
+    """Complete rates given by name to those of all driven displacements, one a pose: zero where none is given."""
     check_motion(motion, "rates")
     given = {}
     for key, rate in by_name(rates, "rates", f"{{{next(iter(motion.inputs))!r}: 1.0}}").items():
@@ -232,6 +247,7 @@ def tangents_of(motion: Motion, rates: Mapping[str, Any]) -> Inputs:
 
 
 def _known(motion: Motion, part: str) -> str:
+    """Return the name of a part; ValueError where there is none."""
     if part not in motion.mechanism.parts:
         raise ValueError(f"there is no part {part!r}{nearest(part, motion.mechanism.parts)}")
     return part

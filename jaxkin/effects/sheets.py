@@ -108,7 +108,7 @@ class Sheets:
         return len(self.node) - 1
 
     def _feature(self, state: list[np.ndarray]) -> Float[np.ndarray, " _"]:
-        """Lengths, cosines and sines of angles, rotations of balls: the same for poses that are full turns apart."""
+        """Compute lengths, cosines and sines of angles, rotations of balls: the same for poses full turns apart."""
         found = []
         for system, x, turns in zip(self.steps.systems, state[::2], state[1::2], strict=True):
             length = np.array(system.is_length, bool)

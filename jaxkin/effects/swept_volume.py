@@ -195,7 +195,7 @@ def swept_volume(motion: Motion, part: str, *, resolution: float | None = None) 
 
 
 def _given(motion: Any, part: str) -> tuple[Part, Float[np.ndarray, "poses 4 4"], int]:
-    """The solid of a part, its closed places, and how many poses are left out; ValueError for what cannot be swept."""
+    """Find the solid of a part, its closed places, and the number of poses left out; ValueError if there are none."""
     check_motion(motion, "swept volumes")
     if traced(motion):
         raise ValueError("a swept volume is found on the host: ask outside of jit, vmap and grad")
@@ -213,7 +213,7 @@ def _given(motion: Any, part: str) -> tuple[Part, Float[np.ndarray, "poses 4 4"]
 
 
 def _step(part: str, resolution: float | None, low: np.ndarray, high: np.ndarray) -> float:
-    """The step of the grid; ValueError for one that makes no sense, or too many points."""
+    """Choose the step of the grid; ValueError for one that makes no sense, or too many points."""
     if resolution is None:
         return float((high - low).max()) / STEPS_ACROSS
     expected = "a length above zero, unit of the mechanism"
@@ -250,12 +250,12 @@ def _placements(places: np.ndarray, moved: np.ndarray, step: float) -> Iterator[
 
 
 def _sagitta(moved: Float[np.ndarray, "poses corners 3"]) -> float:
-    """How far an arc of at most a quarter turn between two poses goes beyond its chord: 0.21 of the chord."""
+    """Measure how far an arc of at most a quarter turn between two poses goes beyond its chord: 0.21 of the chord."""
     return 0.21 * float(np.linalg.norm(np.diff(moved, axis=0), axis=-1).max(initial=0.0))
 
 
 def _off_between(places: np.ndarray, moved: np.ndarray, corners: np.ndarray) -> float:
-    """How far screw motions between poses are off: a quarter of what a pose is off the middle of its neighbours."""
+    """Measure how far screw motions between poses are off: a quarter of what a pose is off its neighbours' middle."""
     off = 0.0
     for before, here, after in zip(places[:-2], moved[1:-1], places[2:], strict=True):
         middle = displacement_along(screw_between(before, after), 0.5) @ before

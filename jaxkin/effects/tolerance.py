@@ -24,7 +24,7 @@ class Tolerance:
     """"even": all deviations up to the limit are as likely; "normal": the bell curve, not cut at the limit."""
 
     def standard_deviation(self, dimensions: int = 1) -> float:
-        """The standard deviation of one component: of a length, or of a place evenly within a circle or a ball.
+        """Compute the standard deviation of one component: of a length, or of a place evenly within a circle or a ball.
 
         A point evenly in a ball of n dimensions and radius t has the variance t^2 / (n + 2) along each of them.
         """

@@ -114,7 +114,7 @@ class Tolerances:
         return float(np.mean((self.samples >= self.wanted[0]) & (self.samples <= self.wanted[1])))
 
     def worst_deviations(self) -> Float[np.ndarray, " numbers"]:
-        """The deviations that together raise the measure most in first order; with the other sign they lower it."""
+        """Find the deviations that together raise the measure most to first order; reversed they lower it most."""
         parts, first = [], 0
         for stated, size in zip(self.stated, self.dimensions, strict=True):
             slope = np.asarray(self.slopes[first : first + size])
@@ -124,7 +124,7 @@ class Tolerances:
         return np.concatenate(parts)
 
     def with_values(self, extremes: tuple[float, float], samples: Float[np.ndarray, " samples"]) -> Tolerances:
-        """The same with the measures of designs that were evaluated in full."""
+        """Add the measures of designs that were evaluated in full."""
         return replace(self, extremes=extremes, samples=samples)
 
     def allowed(

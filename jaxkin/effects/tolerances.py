@@ -152,7 +152,7 @@ def _lengths(given: Any) -> Mapping[Any, Any]:
 
 
 def _nominal(mechanism: Mechanism, stated: Mapping[Any, Tolerance]) -> list[Any]:
-    """The nominal values of the lengths; ValueError where a tolerance reaches below zero, or does not fit others."""
+    """Look up the nominal lengths; ValueError where a tolerance reaches below zero, or does not fit others."""
     nominal = [length_now(mechanism.linkage, key) for key in stated]
     if traced(nominal) or not stated:
         return nominal
@@ -178,7 +178,7 @@ def _nominal(mechanism: Mechanism, stated: Mapping[Any, Tolerance]) -> list[Any]
 
 
 def _displacements(key: Any, value: Any) -> Any:
-    """The displacements of a drive as an array; ValueError where they are no numbers."""
+    """Return the displacements of a drive as an array; ValueError where they are no numbers."""
     try:
         return value if traced(value) else np.asarray(value, float)
     except (TypeError, ValueError):
@@ -186,7 +186,7 @@ def _displacements(key: Any, value: Any) -> Any:
 
 
 def _is_one_pose(drive: Mapping[Any, Any]) -> bool:
-    """Whether a drive gives one displacement, or one target, for each of its keys."""
+    """Tell whether a drive gives one displacement, or one target, for each of its keys."""
     single = {"pose": 2, "point": 1, "orientation": 2}
     return all(np.ndim(value) == (single[key.kind] if isinstance(key, Target) else 0) for key, value in drive.items())
 

@@ -69,7 +69,7 @@ def zero_surface(
 
 
 def _parity(orders: Int[np.ndarray, "rows 4"]) -> Int[np.ndarray, " rows"]:
-    """1 for even permutations, -1 for odd ones."""
+    """Return 1 for even permutations, -1 for odd ones."""
     found = np.ones(len(orders), int)
     for i in range(4):
         for j in range(i + 1, 4):

@@ -279,7 +279,7 @@ def displaced(
     return frame
 
 
-def carried(
+def displace_point(
     point: Float[Array, "3 #poses"],
     movement: str,
     q: Float[Array, "k poses"],

@@ -10,7 +10,7 @@ SMALL = 1e-4
 
 
 def screw_between(one: np.ndarray, other: np.ndarray) -> Float[np.ndarray, "6"]:
-    """The twist (rotation, velocity of the origin), constant over a unit of time, that moves one pose to another."""
+    """Find the constant twist (rotation, velocity of the origin) that moves one pose to another in a unit of time."""
     from scipy.spatial.transform import Rotation
 
     change = other @ np.linalg.inv(one)
@@ -19,7 +19,7 @@ def screw_between(one: np.ndarray, other: np.ndarray) -> Float[np.ndarray, "6"]:
 
 
 def displacement_along(velocity: np.ndarray, share: float) -> Float[np.ndarray, "4 4"]:
-    """The displacement by a share of a screw motion."""
+    """Compute the displacement by a share of a screw motion."""
     from scipy.spatial.transform import Rotation
 
     found = np.eye(4)
@@ -30,7 +30,7 @@ def displacement_along(velocity: np.ndarray, share: float) -> Float[np.ndarray, 
 
 
 def _mean_rotation(turn: np.ndarray) -> Float[np.ndarray, "3 3"]:
-    """The mean of all rotations up to a rotation vector: 1 + (1 - cos a)/a^2 W + (a - sin a)/a^3 W^2."""
+    """Compute the mean of all rotations up to a rotation vector: 1 + (1 - cos a)/a^2 W + (a - sin a)/a^3 W^2."""
     x, y, z = turn
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
     angle = float(np.linalg.norm(turn))

@@ -119,5 +119,5 @@ def _inside(corners: Float[np.ndarray, "triangles 3 3"], shape: tuple[int, ...])
 
 
 def _cross(one: Float[np.ndarray, "n 2"], other: Float[np.ndarray, "n 2"]) -> Float[np.ndarray, " n"]:
-    """The cross product of vectors in a plane."""
+    """Compute the cross product of vectors in a plane."""
     return one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]

@@ -96,7 +96,7 @@ def _shares(mechanism: Mechanism, driven: Sequence[str]) -> list[float]:
             continue
         slides = [is_length(name.rpartition(".")[2]) for name in columns]
         ends = np.where(slides, length / found.length, np.deg2rad(_TURN))
-        rates = np.linalg.pinv(found.at_rest[:, places]) @ found.at_rest
+        rates = np.linalg.pinv(found.assembled_motions[:, places]) @ found.assembled_motions
         for place, row in zip(places, np.abs(rates), strict=True):
             moving = row > _STILL * row[place]
             shares[columns[place]] = float(np.min(ends[moving] / row[moving], initial=ends[place]) / ends[place])

@@ -25,7 +25,7 @@ class Contact(NamedTuple):
     tangent: Float[np.ndarray, "2"]
 
     def away(self, point: Float[np.ndarray, "2"]) -> Float[np.ndarray, "2"]:
-        """How far a point of the plane is from here along the tangent, and along the normal to its left."""
+        """Measure how far a point of the plane is from here along the tangent, and along the normal to its left."""
         x, y = point - self.point
         cos, sin = self.tangent
         return np.array([cos * x + sin * y, cos * y - sin * x])

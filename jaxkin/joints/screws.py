@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.elementary_motions import amount, displaced_columns, rates
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.patches import FollowedSpline
@@ -44,13 +45,13 @@ def chain(
     default those of part 1; `splines` what the movements follow, where they follow something.
     """
     pose, screws = np.eye(4), np.zeros((6, len(q)))
-    first = 0
     leaves = frames if frames_2 is None else frames_2
-    for movement, frame, leave, spline in zip(movements, frames, leaves, splines or repeat(None), strict=False):
+    numbered = zip(movements, coordinate_ranges(movements), frames, leaves, splines or repeat(None), strict=False)
+    for movement, own, frame, leave, spline in numbered:
         pose = pose @ frame
-        point = None if spline is None else spline.at(*q[first : first + len(MOVEMENTS[movement].coordinates)])
+        point = None if spline is None else spline.at(*q[own.start : own.stop])
         for element in MOVEMENTS[movement].elements:
-            k = first + element.coordinate
+            k = own[element.coordinate]
             axis = pose[:3, element.axis]
             slides, turns = rates(element, pitch, point)
             screws[:3, k] += turns * axis
@@ -58,24 +59,21 @@ def chain(
             how_far = amount(element, q[k], pitch, point, _cos_sin)
             pose = np.stack(displaced_columns(list(pose.T), element.axis, *how_far), axis=1)
         pose = pose @ inverse(leave)
-        first += len(MOVEMENTS[movement].coordinates)
     return pose, screws
 
 
 def displacements(joint: Joint, q: Float[np.ndarray, "poses freedoms"]) -> Float[np.ndarray, "3 4 poses"]:
     """Compute the displacements of part 2 of a joint relative to part 1, in world coordinates, for many poses."""
-    found, first = np.eye(4)[:3, :, None], 0
-    frames = zip(joint.movements, joint.frames_1, joint.frames_2, joint.splines, strict=True)
-    for movement, frame_1, frame_2, spline in frames:
+    found, owns = np.eye(4)[:3, :, None], coordinate_ranges(joint.movements)
+    numbered = zip(joint.movements, owns, joint.frames_1, joint.frames_2, joint.splines, strict=True)
+    for movement, own, frame_1, frame_2, spline in numbered:
         found = np.einsum("ikn,kj->ijn", found, np.asarray(frame_1, float))
-        count = len(MOVEMENTS[movement].coordinates)
-        point = None if spline is None else spline.at(*q[:, first : first + count].T)
+        point = None if spline is None else spline.at(*q[:, own.start : own.stop].T)
         for element in MOVEMENTS[movement].elements:
-            how_far = amount(element, q[:, first + element.coordinate], float(joint.pitch), point, _cos_sin)
+            how_far = amount(element, q[:, own[element.coordinate]], float(joint.pitch), point, _cos_sin)
             columns = displaced_columns([found[:, column] for column in range(4)], element.axis, *how_far)
             found = np.stack(np.broadcast_arrays(*columns), axis=1)
         found = np.einsum("ikn,kj->ijn", found, inverse(np.asarray(frame_2, float)))
-        first += count
     return np.broadcast_to(found, (3, 4, len(q)))
 
 

@@ -54,6 +54,7 @@ def closure_equations(linkage: Linkage, coordinates: Mapping[str, object]) -> Cl
 
 
 def _of_joint(joint: Joint, given: Any) -> Float[Array, " freedoms"]:
+    """Check the displacements that are given for a joint, one number a coordinate; ValueError for others."""
     try:
         values = jnp.atleast_1d(jnp.asarray(given, float))
     except (TypeError, ValueError):

@@ -78,6 +78,7 @@ def _alone(number: int, couplings: Mapping[int, Collection[int]], held: Collecti
 
 
 def _of_coupling(number: int, column: int, owner: Sequence[int]) -> Group:
+    """Make the group of a coupling that is solved by itself, for one column."""
     return Group((owner[column],), (column,), (), (), 1, (), couplings=(number,))
 
 

@@ -22,6 +22,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin._traced import traced
+from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.partial_movement import remaining
 from jaxkin.geometry.pose import frame
@@ -51,7 +52,8 @@ def decoupled_plane(joints: Sequence[Joint], structure: Structure, loop_group: L
     own = [joints[joint] for joint in loop_group.joints]
     if not loop_group.loops or traced(own) or (axes := elementary_axes(own, of_balls=True)) is None:
         return None
-    # lengths that were changed leave loops open, and directions as they are; couplings tie what stays in the plane
+    # Changed lengths leave loops open, but directions as they are: loops of the frames on part 1 are closed. Couplings
+    # need not be looked at: loops that they tie out of the plane are solved in space (`solved_coordinates`).
     assembled = [replace(joint, frames_2=joint.frames_1) for joint in joints]
     uncoupled = replace(loop_group, couplings=())
     for normal in _directions(axes[0]):
@@ -80,46 +82,44 @@ def _directions(turning: Axes) -> Iterator[np.ndarray]:
 def _acting_in_plane(axes: tuple[Axes, Axes], normal: np.ndarray) -> tuple[int, ...] | None:
     """List the columns that act in the plane with a normal; None where an axis is oblique to it."""
     columns = []
-    for across, entries in zip((False, True), axes, strict=True):
+    for slides, entries in zip((False, True), axes, strict=True):
         for column, *both in entries:
-            along = [abs(axis @ normal) <= PARALLEL for axis in both]
-            parallel = [np.linalg.norm(np.cross(axis, normal)) <= PARALLEL for axis in both]
-            if all(along if across else parallel):
-                columns.append(column)
-            elif not all(parallel if across else along):
+            perpendicular = all(abs(axis @ normal) <= PARALLEL for axis in both)
+            parallel = all(np.linalg.norm(np.cross(axis, normal)) <= PARALLEL for axis in both)
+            if not (perpendicular or parallel):
                 return None
+            if perpendicular if slides else parallel:
+                columns.append(column)
     return tuple(sorted(columns))
 
 
 def _tilted(joints: Sequence[Joint], normal: np.ndarray) -> bool:
-    """Tell whether the frames of a joint on its two parts are turned to each other about other lines than the normal.
+    """Tell whether the frames of a joint on its two parts differ by a turn about another line than the normal.
 
-    Turns that rest would have to bring them together.
+    Coordinates out of the plane would have to undo that turn, and could not rest.
     """
     for joint in joints:
         sides = np.asarray(joint.frames_1, float)[:, :3, :3], np.asarray(joint.frames_2, float)[:, :3, :3]
-        turned = np.einsum("fij,fkj,k->fi", *sides, normal)
-        if np.abs(turned - normal).max(initial=0.0) > PARALLEL:
+        turned_normal = np.einsum("fij,fkj,k->fi", *sides, normal)
+        if np.abs(turned_normal - normal).max(initial=0.0) > PARALLEL:
             return True
     return False
 
 
 def _can_rest(joints: Sequence[Joint], columns: Sequence[int]) -> bool:
     """Tell whether each movement without its coordinates out of the plane, not in `columns`, is a movement, too."""
-    column = 0
-    for joint in joints:
-        for name in joint.movements:
-            count = len(MOVEMENTS[name].coordinates)
-            if remaining(name, [k for k in range(count) if column + k in columns]) is None:
-                return False
-            column += count
-    return True
+    chain = [name for joint in joints for name in joint.movements]
+    return all(
+        remaining(name, [k for k, column in enumerate(own) if column in columns]) is not None
+        for name, own in zip(chain, coordinate_ranges(chain), strict=True)
+    )
 
 
 def _ball_columns(joints: Sequence[Joint]) -> set[int]:
     """List the columns of balls."""
-    every = [name for joint in joints for name in joint.movements for _ in MOVEMENTS[name].coordinates]
-    return {column for column, name in enumerate(every) if MOVEMENTS[name].ball}
+    chain = [name for joint in joints for name in joint.movements]
+    columns = zip(chain, coordinate_ranges(chain), strict=True)
+    return {column for name, own in columns if MOVEMENTS[name].ball for column in own}
 
 
 def _others_rest(
@@ -129,21 +129,23 @@ def _others_rest(
 
     `normal` is a unit vector, and `of_balls` are the columns of balls.
     """
-    rest = np.zeros(len(loops.columns))
+    assembled = np.zeros(len(loops.columns))
     count = len(loops.loop_group.loops)
-    plane = frame(np.zeros(3), normal)[:3, :3].T  # to axes of which z is the normal
-    twists = loops.jacobian(rest)[: 6 * count].reshape(count, 2, 3, -1)
-    twists = np.einsum("ij,lkjc->lkic", plane, twists).reshape(count, 6, -1)
-    others = np.array([column for column in range(len(rest)) if column not in columns], int)
+    to_plane = frame(np.zeros(3), normal)[:3, :3].T  # from the axes of the world to axes of which z is the normal
+    twists = loops.jacobian(assembled)[: 6 * count].reshape(count, 2, 3, -1)
+    twists = np.einsum("ij,lkjc->lkic", to_plane, twists).reshape(count, 6, -1)
+    others = np.array([column for column in range(len(assembled)) if column not in columns], int)
+    # the blocks J_eo and J_o of the module docstring, in the columns o
     in_plane, out_of_plane = (twists[:, rows][:, :, others].reshape(-1, len(others)) for rows in ([2, 3, 4], [0, 1, 5]))
-    free = null_space(out_of_plane, DEPENDENT)[1]
-    if np.abs(in_plane @ free.T).max(initial=0.0) > DEPENDENT:
+    motions = null_space(out_of_plane, DEPENDENT)[1]
+    if np.abs(in_plane @ motions.T).max(initial=0.0) > DEPENDENT:
         return False
-    # slides along the normal go on whatever turns; of a turn about any axis each angle of a ball has a part
-    mixes, sizes, _ = np.linalg.svd(free[:, loops.units[others] == 1.0])
+    # Slides along the normal commute with all that happens in the plane, so that they are idle. Only motions that turn
+    # something are followed. The angles of a ball are not held meanwhile: a turn about an oblique axis takes all three.
+    combinations, turns, _ = np.linalg.svd(motions[:, loops.units[others] == 1.0])
     held = [column for column in columns if column not in of_balls]
-    for motion in mixes.T[: int((sizes > DEPENDENT).sum())] @ free:
-        begun = np.zeros(len(rest))
+    for motion in combinations.T[: int((turns > DEPENDENT).sum())] @ motions:
+        begun = np.zeros(len(assembled))
         begun[others] = FAR * motion
         moved, found = loops.closed(begun, held=held)
         if found.residual_norm > loops.thresholds.residual or moved[others] @ motion < KEPT * FAR:

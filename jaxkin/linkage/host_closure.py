@@ -64,10 +64,11 @@ class Travel(NamedTuple):
     """The quantities found by travelling around the loops, in world coordinates about the centroid, lengths scaled."""
 
     residual: Rows
-    """Misfits of the loops as twists, six rows a loop: `vee(R - R^T)/2` of the rotation left open, then translation;
-    then `misfits`."""
+    """Six rows a loop, the displacement that is left open as a twist: `vee(R - R^T)/2` of its rotation, then its
+    translation; after those of all loops the `coupling_residual`."""
     jacobian: Float[np.ndarray, "equations columns"]
-    """Derivatives of the misfits with respect to the coordinates."""
+    """For each column six rows a loop, the twist of the loop's end at a unit rate of the coordinate: the derivative of
+    the residual where the loop is closed. After those of all loops the `coupling_jacobian`."""
     screws: Screws
     """Unit twists (6, columns) of the coordinates of all joints, angular velocity first."""
     starts: tuple[Pose, ...]
@@ -76,15 +77,15 @@ class Travel(NamedTuple):
     """For each loop the displacement that is left when it has been travelled: the identity if the loop is closed."""
     places: Mapping[str, Pose]
     """Displacement of each row of parts from the assembled pose; the part at which the first loop starts is at rest."""
-    misfits: Float[np.ndarray, " couplings"]
-    """What each coupling is off by, scaled by its largest coefficient."""
-    coupled: Float[np.ndarray, "couplings columns"]
-    """Derivatives of `misfits` with respect to the coordinates."""
+    coupling_residual: Float[np.ndarray, " couplings"]
+    """Left-hand side of each coupling less its offset, over its largest coefficient."""
+    coupling_jacobian: Float[np.ndarray, "couplings columns"]
+    """Derivatives of `coupling_residual` with respect to the coordinates."""
 
     @property
     def residual_norm(self) -> float:
         """The residual norm: square root of Eq. 12, over all twelve equations of all loops, and all couplings."""
-        return float(np.hypot(np.linalg.norm(self.left_open - np.eye(4)), np.linalg.norm(self.misfits)))
+        return float(np.hypot(np.linalg.norm(self.left_open - np.eye(4)), np.linalg.norm(self.coupling_residual)))
 
     @property
     def merit(self) -> float:
@@ -94,7 +95,8 @@ class Travel(NamedTuple):
         `residual` also vanishes where a rotation is left open by half a turn.
         """
         squares = (self.left_open - np.eye(4)) ** 2
-        return float(0.25 * squares[:, :3, :3].sum() + 0.5 * (squares[:, :3, 3].sum() + (self.misfits**2).sum()))
+        of_couplings = (self.coupling_residual**2).sum()
+        return float(0.25 * squares[:, :3, :3].sum() + 0.5 * (squares[:, :3, 3].sum() + of_couplings))
 
 
 class ClosedLoops:
@@ -162,8 +164,8 @@ class ClosedLoops:
         return columns, scaled / largest, float(coupling.offset) / largest
 
     def jacobian(self, q: Row) -> Float[np.ndarray, "equations columns"]:
-        """Differentiate the misfits of the loops: six rows a loop, in world coordinates about the centroid."""
-        return self.travel(q)[1]
+        """Compute the closure Jacobian at scaled coordinates `q`: see `Travel.jacobian`."""
+        return self.travel(q).jacobian
 
     def closed(self, q: Row, held: Sequence[int] = ()) -> tuple[Row, Travel]:
         """Close the loops from scaled coordinates `q` by damped Newton steps of least norm (Levenberg-Marquardt).
@@ -226,23 +228,28 @@ class ClosedLoops:
                 pose = places.setdefault(joint, np.eye(4))
                 screws[:, self.slices[index]] = moved(pose, own)
                 places.setdefault(other, pose @ step)
-        misfits, coupled = np.zeros(len(self.couplings)), np.zeros((len(self.couplings), len(q)))
-        for row, (columns, coefficients, offset) in enumerate(self.couplings):
-            for at, column, factors in zip(q[columns], columns, coefficients, strict=True):
-                polynomial = np.polynomial.Polynomial([0.0, *factors])
-                misfits[row] += polynomial(at)
-                coupled[row, column] = polynomial.deriv()(at)
-            misfits[row] -= offset
+        coupling_residual, coupling_jacobian = self._evaluate_couplings(q)
         return Travel(
-            np.append(residual.ravel(), misfits),
-            np.concatenate([jacobian.reshape(6 * len(residual), len(q)), coupled]),
+            np.append(residual.ravel(), coupling_residual),
+            np.concatenate([jacobian.reshape(6 * len(residual), len(q)), coupling_jacobian]),
             screws,
             tuple(starts),
             np.array(left_open).reshape(-1, 4, 4),
             places,
-            misfits,
-            coupled,
+            coupling_residual,
+            coupling_jacobian,
         )
+
+    def _evaluate_couplings(self, q: Row) -> tuple[Rows, Float[np.ndarray, "couplings columns"]]:
+        """Evaluate `Travel.coupling_residual` at scaled coordinates `q`, and its derivatives with respect to these."""
+        residual, jacobian = np.zeros(len(self.couplings)), np.zeros((len(self.couplings), len(q)))
+        for row, (columns, coefficients, offset) in enumerate(self.couplings):
+            for at, column, factors in zip(q[columns], columns, coefficients, strict=True):
+                polynomial = np.polynomial.Polynomial([0.0, *factors])
+                residual[row] += polynomial(at)
+                jacobian[row, column] = polynomial.deriv()(at)
+            residual[row] -= offset
+        return residual, jacobian
 
 
 def least_norm(jacobian: Float[np.ndarray, "equations columns"], right: Rows, damping: float) -> Row:

@@ -11,7 +11,8 @@ from jax import lax
 from jaxtyping import Array, Float
 
 from jaxkin._traced import traced
-from jaxkin.geometry.movements import MOVEMENTS, carried, displaced
+from jaxkin.geometry.chains import coordinate_ranges
+from jaxkin.geometry.movements import displace_point, displaced
 from jaxkin.geometry.rigid import Rigid, as_matrices, as_rigid, inverse, product
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.linkage import Linkage
@@ -82,24 +83,21 @@ def point_path(
     here, poses = point[:, None], displacements[0].shape[0]
     while part in hangs:
         part, joint, sign = hangs[part]
-        here = _carried(linkage.joints[joint], jnp.asarray(displacements[joint]), here, sign)
+        here = _displace_by_joint(linkage.joints[joint], jnp.asarray(displacements[joint]), here, sign)
     return jnp.broadcast_to(here, (3, poses)).T
 
 
-def _carried(joint: Joint, q: Float[Array, "poses _"], point: Float[Array, "3 #poses"], sign: int) -> Array:
+def _displace_by_joint(joint: Joint, q: Float[Array, "poses _"], point: Float[Array, "3 #poses"], sign: int) -> Array:
     """Apply the displacement of a joint to a point, or its inverse where `sign` is negative."""
-    first, steps = 0, []
-    for frame, movement in enumerate(joint.movements):
-        count = len(MOVEMENTS[movement].coordinates)
-        steps.append((movement, frame, q[:, first : first + count].T))
-        first += count
+    numbered = enumerate(zip(joint.movements, coordinate_ranges(joint.movements), strict=True))
+    steps = [(movement, frame, q[:, own.start : own.stop].T) for frame, (movement, own) in numbered]
     enter, leave = (joint.frames_2, joint.frames_1) if sign > 0 else (joint.frames_1, joint.frames_2)
     for movement, frame, own in reversed(steps) if sign > 0 else steps:
         before, after = (jnp.asarray(side[frame], q.dtype) for side in (enter, leave))
         curve = joint.curves[frame] if joint.curves else None
         # products of matrices, whose derivatives by the frames add up all poses at once
         local = before[:3, :3].T @ (point - before[:3, 3:])
-        local = carried(local, movement, own, jnp.asarray(joint.pitch, q.dtype), curve, back=sign < 0)
+        local = displace_point(local, movement, own, jnp.asarray(joint.pitch, q.dtype), curve, back=sign < 0)
         point = after[:3, :3] @ local + after[:3, 3:]
     return point
 
@@ -110,14 +108,12 @@ def joint_motion(joint: Joint, q: Float[Array, "poses _"]) -> Float[Array, "3 4 
     Columns of `q` are the joint's coordinates: radians, and lengths in the unit of the mechanism. Returns rotation and
     translation in world coordinates, `[row, column, pose]`.
     """
-    found, first = None, 0
-    for frame, movement in enumerate(joint.movements):
-        count = len(MOVEMENTS[movement].coordinates)
+    found = None
+    for frame, (movement, own) in enumerate(zip(joint.movements, coordinate_ranges(joint.movements), strict=True)):
         frame_1, frame_2 = (as_rigid(jnp.asarray(side[frame], q.dtype)) for side in (joint.frames_1, joint.frames_2))
         begin = frame_1 if found is None else product(found, frame_1)
         curve = joint.curves[frame] if joint.curves else None
-        moved = displaced(begin, movement, q[:, first : first + count].T, jnp.asarray(joint.pitch, q.dtype), curve)
+        moved = displaced(begin, movement, q[:, own.start : own.stop].T, jnp.asarray(joint.pitch, q.dtype), curve)
         found = product(moved, inverse(frame_2))
-        first += count
     still = jnp.eye(4, dtype=q.dtype)[:3, :, None] if found is None else found
     return jnp.broadcast_to(still, (3, 4, q.shape[0]))

@@ -38,8 +38,7 @@ class Linkage:
     structure: Structure
     classes: tuple[LoopClass, ...]
     """The class of each loop group of `structure`, found from the numbers of the joints when the linkage was made.
-    Loops that leave their class later do not close, and the statuses of their poses say so. `in_space` is for numbers
-    and poses that may leave a plane that joints do not keep to."""
+    Loops that leave their class later do not close, and the statuses of their poses say so."""
     ideal: tuple[Joint, ...] = ()
     """The nearest joints whose loops close along a motion, if the loops of `joints` close in the assembled pose only
     because the joints disagree by more than rounding; else empty. Poses are found with the joints in `ideal`, and then
@@ -66,14 +65,17 @@ class Linkage:
 
     @cached_property
     def in_space(self) -> Linkage:
-        """The same linkage without loops that are solved in a plane which their joints could leave."""
+        """The same linkage, its loops with a `LoopClass.decoupled_plane` solved in space.
+
+        It is for numbers that JAX traces, and for poses that may leave that plane.
+        """
         if all(each.decoupled_plane is None for each in self.classes):
             return self
         return replace(self, classes=tuple(each._replace(decoupled_plane=None) for each in self.classes))
 
     @cached_property
     def whole(self) -> Linkage:
-        """The same linkage with loops `in_space`, none of which is cut at a ball: for poses in which rods have spun."""
+        """The linkage `in_space`, none of its loops cut at a ball: for poses in which rods between balls have spun."""
         classes = (each._replace(spins=(), cut_at_balls=False) for each in self.in_space.classes)
         return replace(self, classes=tuple(classes))
 

@@ -21,9 +21,11 @@ class LoopClass(NamedTuple):
     """Properties of the loops of a loop group by which they need fewer equations, or other ones, than six a loop."""
 
     plane: tuple[int, ...] | None = None
-    """Columns of the coordinates that act in the plane if all joints move in parallel planes; else None."""
+    """Columns of the coordinates that act in the plane, of loops whose joints all move in parallel planes; else None.
+    They are numbered through all coordinates of the loop group."""
     decoupled_plane: tuple[int, ...] | None = None
-    """The same if joints could leave the plane, but rest where the others keep to it; else None."""
+    """The same of loops whose joints could leave the plane, by coordinates that rest while the others keep to it; else
+    None. See `jaxkin.linkage.decoupled_plane`."""
     spins: tuple[tuple[int, int, int, int], ...] = ()
     """Rods that spin idly about the line through their two balls: the numbers of both balls, and for each ball +1, or
     -1 where the rod is part 1 of the ball's joint."""
@@ -32,7 +34,8 @@ class LoopClass(NamedTuple):
     spherical: tuple[int, ...] = ()
     """Numbers of the loops that turn about axes through one point only."""
     cut_at_balls: bool = False
-    """Whether loops are cut at balls where that is possible: see `LoopSystem.cuts`."""
+    """Whether the solver may cut loops at balls: see `LoopSystem.cuts`. False for a general class and in
+    `Linkage.whole`."""
 
 
 def loop_classes(joints: Sequence[Joint], structure: Structure) -> tuple[LoopClass, ...] | None:
@@ -54,7 +57,8 @@ def loop_classes(joints: Sequence[Joint], structure: Structure) -> tuple[LoopCla
         spherical = tuple(number for number, chain in enumerate(chains) if turn_about_one_point(chain))
         plane = plane_columns(inside)
         decoupled = None if plane is not None else decoupled_plane(joints, structure, loop_group)
-        found.append(LoopClass(plane, decoupled, idle_spins(inside, bodies), schoenflies, spherical, True))
+        spins = idle_spins(inside, bodies)
+        found.append(LoopClass(plane, decoupled, spins, schoenflies, spherical, cut_at_balls=True))
     return tuple(found)
 
 

@@ -38,8 +38,7 @@ def plane_columns(joints: Sequence[Joint]) -> tuple[int, ...] | None:
     normal = turning[0][1]
     inside = [column for column, *_ in turning]
     for column, *axes in sliding:
-        along = np.abs(np.array(axes) @ normal)
-        if np.all(along <= PARALLEL):
+        if np.all(np.abs(np.array(axes) @ normal) <= PARALLEL):
             inside.append(column)
         elif np.any(np.linalg.norm(np.cross(axes, normal), axis=-1) > PARALLEL):
             return None
@@ -137,6 +136,7 @@ def elementary_axes(joints: Sequence[Joint], *, of_balls: bool = False) -> tuple
 
 
 def _one_direction(turning: Axes) -> bool:
+    """Tell whether there are axes of rotations, and all of them are parallel, on either part of each joint."""
     return bool(turning) and all(
         np.linalg.norm(np.cross(turning[0][1], axis)) <= PARALLEL for _, *axes in turning for axis in axes
     )

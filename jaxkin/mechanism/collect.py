@@ -49,7 +49,7 @@ class Collected(NamedTuple):
 
 
 def collect(
-    layout: DisplacementSources,
+    sources: DisplacementSources,
     values: tuple[Given, ...],
     finite: Bool[Array | np.ndarray, " poses"] | None,
     solutions: list[Solution],
@@ -57,21 +57,21 @@ def collect(
     """Collect inputs, displacements, status and closure residual of each pose. All are NaN where an input is not
     `finite`."""
     poses, dtype = values[0].shape[0], values[0].dtype
-    given = dict(zip(layout.driven, values, strict=True))
-    resting = {freedoms: jnp.zeros((poses, freedoms), dtype) for freedoms in sorted(set(layout.freedoms))}
+    given = dict(zip(sources.driven, values, strict=True))
+    resting = {freedoms: jnp.zeros((poses, freedoms), dtype) for freedoms in sorted(set(sources.freedoms))}
     moved: dict[int, Array] = {}
     for (joint, coordinate), value in given.items():
-        moved[joint] = moved.get(joint, resting[layout.freedoms[joint]]).at[:, coordinate].set(value)
+        moved[joint] = moved.get(joint, resting[sources.freedoms[joint]]).at[:, coordinate].set(value)
     rank = jnp.array([SEVERITY.index(status) for status in Status], jnp.int32)
     worst = jnp.zeros(poses, jnp.int32)
     if finite is not None:
         worst = jnp.where(finite, worst, SEVERITY.index(Status.NONFINITE))
     square = jnp.zeros(poses, dtype)
-    for columns, (coordinates, found) in zip(layout.columns, solutions, strict=True):
+    for columns, (coordinates, found) in zip(sources.columns, solutions, strict=True):
         own_status = found.status[:poses]
         follows = closes_before_limits(own_status) | (own_status == Status.MISFIT.value)
         for joint in dict.fromkeys(joint for joint, _ in columns):
-            own = [(joint, k) for k in range(layout.freedoms[joint])]
+            own = [(joint, k) for k in range(sources.freedoms[joint])]
             # inputs as they were given; the derivative of a pose that is not closed is zero in all its coordinates
             rows = [
                 jnp.where(follows, given[each], lax.stop_gradient(given[each]))
@@ -84,7 +84,7 @@ def collect(
         worst = jnp.maximum(worst, rank[found.status[:poses]])
         square = square + found.residual_norm[:poses] ** 2
     status = jnp.array([status.value for status in SEVERITY], jnp.int32)[worst]
-    resting = {freedoms: resting[freedoms] for joint, freedoms in enumerate(layout.freedoms) if joint not in moved}
+    resting = {freedoms: resting[freedoms] for joint, freedoms in enumerate(sources.freedoms) if joint not in moved}
     moved, resting, residual = nan_where_not_finite((moved, resting, jnp.sqrt(square)), finite)
     return Collected(tuple(map(jnp.asarray, values)), moved, resting, status, residual)
 

@@ -1,6 +1,7 @@
-"""What of a sweep depends on which coordinates are driven, and not on how far: found once for a linkage and a drive.
+"""Plan a drive: find what of a sweep depends on which coordinates are driven, and not on how far.
 
-A sweep of some hundred poses takes a few milliseconds: to find this anew each time would be a large part of them.
+The plan is found once for a linkage and a drive. A sweep of some hundred poses takes a few milliseconds: to plan anew
+each time would be a large part of them.
 """
 
 from __future__ import annotations
@@ -56,15 +57,17 @@ class DrivenLoopGroup(NamedTuple):
     """Whether the groups were found by counting and not by the ranks of the closure Jacobian: for a single loop, or
     where the joint frames are traced or do not close."""
     inputs: tuple[int, ...]
-    """Which of the inputs it has, in the order of `system.driven`; none where it is only to be closed."""
+    """Numbers of its inputs among those of the drive, in the order of `system.driven`; none where its loops are only to
+    be closed."""
     joints: Joints
     axes: Axes | None
     """The axes of the assembled pose, from which formulas compute the poses; None where they are traced, or where a
     group has no formula: see `jaxkin.solve.closed_form`."""
     line: Line | None
-    """What the formulas say of a full turn of the input; None where it has none, or where there are no `axes`."""
+    """What the formulas say of a full turn of the input; None where that is no angle, or where there are no `axes`."""
     given: GivenLoops | None
-    """What the poses are brought to the least residual of, where the loops solved are those of `linkage.ideal`."""
+    """The loops of the joints as they were given, whose residual poses are brought to the least of; None where these
+    joints are the ones solved, and not `linkage.ideal`."""
 
 
 class DrivePlan(NamedTuple):
@@ -80,7 +83,7 @@ class DrivePlan(NamedTuple):
     """Why the loops cannot follow the drive; None where they can, or where that is not sure."""
     at_dead_point: bool = False
     """Whether the assembled pose is a dead point of the drive; False where numbers are traced."""
-    by_formula: FormulaSweep | None = None
+    formula_sweep: FormulaSweep | None = None
     """The sweep of all loop groups by one program; None where one of them has no formula, or numbers are traced."""
 
 
@@ -101,7 +104,7 @@ def plan_drive(linkage: Linkage, keys: tuple[str, ...]) -> DrivePlan:
     loop_groups = tuple(
         loop_group._replace(joints=joints) for loop_group, joints in zip(plan.loop_groups, on_device, strict=True)
     )
-    kept[key] = plan._replace(loop_groups=loop_groups, by_formula=_formula_sweep(plan))
+    kept[key] = plan._replace(loop_groups=loop_groups, formula_sweep=_formula_sweep(plan))
     return kept[key]
 
 
@@ -113,6 +116,7 @@ def _kept(linkage: Linkage) -> dict[Any, DrivePlan]:
 
 
 def _plan_drive(linkage: Linkage, keys: Sequence[str]) -> DrivePlan:
+    """Make the plan of a drive, without `formula_sweep`; whether it is feasible is judged where numbers are known."""
     driven = coordinates(linkage, keys)
     places = list(driven.values())
     on_host = linkage if not traced(linkage) else lax.stop_gradient(linkage)  # by `grad` alone they are there

@@ -1,8 +1,8 @@
 """The sweep of a drive whose loop groups all have formulas: one program from the inputs to all displacements.
 
 The program is compiled for a single pose and for `CHUNK` of them, and serves ranges of any length: short ones are
-padded, long ones cut into chunks, of `DEVICE_GROUP` poses on a device that is no CPU. What it finds is joined, cut to
-length and dealt out to the joints afterwards.
+padded, long ones cut into chunks, of `DEVICE_GROUP` poses on a device that is no CPU. What it finds for the chunks is
+joined, cut to length and collected by joint afterwards.
 """
 
 from __future__ import annotations
@@ -35,12 +35,12 @@ CHUNK = 384
 """Poses of one call of the program, enough for one a degree. A call costs a CPU as much as some 200 poses of a
 four-bar."""
 OFTEN = 3
-"""Calls with the same number of poses from which on a program of its own deals out what is found. To do that on the
-host takes 0.1 ms longer, to compile that program some 40."""
+"""Calls with the same number of poses from which on a program of its own collects what is found by joint. To do that on
+the host takes 0.1 ms longer, to compile that program some 40."""
 
 
-class ElementNumbers(NamedTuple):
-    """The numbers of a loop group."""
+class LoopGroupNumbers(NamedTuple):
+    """The numbers of a loop group that its formulas need, on the device."""
 
     axes: Axes
     joints: Joints | None
@@ -61,7 +61,7 @@ class _KnownLine(NamedTuple):
         """Copy to the device what programs are given."""
         return self._replace(line=jax.device_put(self.line), passed=jax.device_put(self.passed))
 
-    def of(self, values: np.ndarray) -> Line | PassedLine:
+    def for_inputs(self, values: np.ndarray) -> Line | PassedLine:
         """Choose what the program is given for inputs in radians or characteristic lengths."""
         endless = self.lowest == -np.inf
         return self.passed if endless or (self.lowest <= values.min() and values.max() <= self.highest) else self.line
@@ -83,24 +83,24 @@ class FormulaSweep:
 
     def __init__(
         self,
-        layout: DisplacementSources,
+        sources: DisplacementSources,
         systems: tuple[LoopSystem, ...],
         inputs: tuple[int, ...],
         axes: Sequence[Axes],
-        turns: Sequence[Line | None],
+        turn_lines: Sequence[Line | None],
         joints: Sequence[Joints],
     ):
-        """`inputs` has for each loop group the number of its input, `turns` the line of one that turns."""
-        self.layout, self.systems, self.inputs, self.axes = layout, systems, inputs, tuple(axes)
+        """`inputs` are for each loop group the number of its input, `turn_lines` its line of a full turn, or None."""
+        self.sources, self.systems, self.inputs, self.axes = sources, systems, inputs, tuple(axes)
         needed = [given if system.balls else None for system, given in zip(systems, joints, strict=True)]
-        self.numbers = jax.device_put([ElementNumbers(*both) for both in zip(axes, needed, strict=True)])
-        self.may_close = all(turn is None or bool(turn.begins) for turn in turns)
-        self.turns = [
-            turn and _known_line(system, turn).on_device() for system, turn in zip(systems, turns, strict=True)
+        self.numbers = jax.device_put([LoopGroupNumbers(*both) for both in zip(axes, needed, strict=True)])
+        self.may_close = all(turn is None or bool(turn.begins) for turn in turn_lines)
+        self.turn_lines = [
+            turn and _known_line(system, turn).on_device() for system, turn in zip(systems, turn_lines, strict=True)
         ]
-        self.asked: tuple[ClosureTolerance, ClosureTolerance] | None = None
+        self.last_tolerance: tuple[ClosureTolerance, ClosureTolerance] | None = None
         """The tolerance that was asked for last, and the same on the device."""
-        self.program, self.single = _program(systems, inputs), _single(layout, systems, inputs)
+        self.program, self.single = _program(systems, inputs), _single(sources, systems, inputs)
 
     def solve(
         self, values: tuple[Given, ...], finite: Bool[np.ndarray, " poses"] | None, tolerance: ClosureTolerance
@@ -113,51 +113,54 @@ class FormulaSweep:
             return None
         rows = np.stack(values)
         lines = [self._line(number, rows[which]) for number, which in enumerate(self.inputs)]
-        asked = self.asked
+        asked = self.last_tolerance
         if asked is None or asked[0] is not tolerance:
-            asked = self.asked = tolerance, jax.device_put(tolerance)
+            asked = self.last_tolerance = tolerance, jax.device_put(tolerance)
         _, on_device = asked
         poses = rows.shape[1]
         if poses == 1:
-            dealt, *proven = self.single(self.numbers, lines, rows, finite, on_device)
+            collected, *proven = self.single(self.numbers, lines, rows, finite, on_device)
         else:
             length = CHUNK if poses <= CHUNK else group_for_device(CHUNK)
             pieces = [_chunk(rows, begin, length) for begin in range(0, poses, length)]
             chunks = [self.program(self.numbers, lines, piece, on_device) for piece in pieces]
             proven = [chunk.proven for chunk in chunks]
             # before it is known whether all are closed: the processor is at it while Python waits for that
-            dealt = None if traced(proven) else self._dealt(chunks, rows, finite)
+            collected = None if traced(proven) else self._collected(chunks, rows, finite)
         # inside a function that is being traced, what a program returns is traced, though it is given numbers
-        return None if traced(proven) or not all(map(np.asarray, proven)) else dealt
+        return None if traced(proven) or not all(map(np.asarray, proven)) else collected
 
     def passes(self, inputs: Mapping[str, Array | np.ndarray]) -> bool:
-        """Tell whether all inputs are angles, in radians, of a range that the motion passes without doubt: no pose of
-        it is singular."""
+        """Tell whether all inputs are angles, in radians, within the range that the motion passes without doubt.
+
+        No pose is singular then.
+        """
         rows = [np.asarray(row) for row in inputs.values()]
         return all(
-            turn is not None and rows[which].size > 0 and turn.of(rows[which]) is turn.passed
-            for turn, which in zip(self.turns, self.inputs, strict=True)
+            turn is not None and rows[which].size > 0 and turn.for_inputs(rows[which]) is turn.passed
+            for turn, which in zip(self.turn_lines, self.inputs, strict=True)
         )
 
     def _line(self, number: int, values: np.ndarray) -> Line | PassedLine:
         """Choose the line of the input of a loop group: the one that is kept, or that of a displacement."""
-        if (turn := self.turns[number]) is not None:
-            return turn.of(values)
+        if (turn := self.turn_lines[number]) is not None:
+            return turn.for_inputs(values)
         system, axes = self.systems[number], self.axes[number]
-        return _known_line(system, line_of(system, axes, values[None])).of(values / axes.length)
+        return _known_line(system, line_of(system, axes, values[None])).for_inputs(values / axes.length)
 
-    def _dealt(self, chunks: list[_Found], rows: np.ndarray, finite: np.ndarray | None) -> Collected:
-        """Deal out what was found to the joints: by a program, or on the host where so many poses are rare."""
+    def _collected(self, chunks: list[_Found], rows: np.ndarray, finite: np.ndarray | None) -> Collected:
+        """Collect what was found for the chunks: by a program, or on the host where so many poses are rare."""
         several = self.systems if len(chunks) > 1 else None
         found = [(chunk.displaced, chunk.residual) for chunk in chunks]
-        _asked[id(self.program), rows.shape[1]] += 1
-        if _asked[id(self.program), rows.shape[1]] < OFTEN:
-            dealt = _deal_out(self.layout, several, jax.tree.map(np.asarray, found), rows, finite, np)
-            return jax.tree.map(jnp.asarray, dealt)
-        return _deal_out_program(self.layout, several, found, rows, finite)
+        _uses[id(self.program), rows.shape[1]] += 1
+        if _uses[id(self.program), rows.shape[1]] < OFTEN:
+            collected = _collect_chunks(self.sources, several, jax.tree.map(np.asarray, found), rows, finite, np)
+            return jax.tree.map(jnp.asarray, collected)
+        return _collect_program(self.sources, several, found, rows, finite)
 
 
 def _known_line(system: LoopSystem, line: Line) -> _KnownLine:
+    """Find the range of inputs that the motion passes without doubt along a line."""
     return _KnownLine(line, PassedLine(line.signs, line.windings), *passed_range(system, line))
 
 
@@ -172,7 +175,7 @@ def _chunk(rows: np.ndarray, begin: int, length: int) -> np.ndarray:
 def _find(
     systems: tuple[LoopSystem, ...],
     which: tuple[int, ...],
-    numbers: Sequence[ElementNumbers],
+    numbers: Sequence[LoopGroupNumbers],
     lines: Sequence[Line | PassedLine],
     rows: Float[Array, "driven poses"],
     tolerance: ClosureTolerance,
@@ -188,15 +191,17 @@ def _find(
     return _Found(displaced, jnp.sqrt(square), proven)
 
 
-def _deal_out(
-    layout: DisplacementSources,
+def _collect_chunks(
+    sources: DisplacementSources,
     systems: tuple[LoopSystem, ...] | None,
     found: Sequence[tuple[Sequence[Array | np.ndarray], Array | np.ndarray]],
     rows: Float[Array | np.ndarray, "driven poses"],
     finite: Bool[Array | np.ndarray, " poses"] | None,
     xp: Any = jnp,
 ) -> Collected:
-    """Join what was found for chunks of poses, cut it to length, and deal it out to the joints; all poses are closed.
+    """Join what was found for chunks of poses, cut it to length, and collect it by joint; all poses are closed.
+
+    It is to formulas what `collect` is to the general solver.
 
     Where `systems` are given, angles of their balls are unwrapped from chunk to chunk. Poses that are not `finite`
     become NaN. `xp` is jax.numpy or numpy.
@@ -209,30 +214,30 @@ def _deal_out(
     displaced, residual = jax.tree.map(whole, *found)
     nothing = xp.zeros((poses,), rows.dtype)
     place: dict[tuple[int, int], Any] = {}
-    for number, (columns, own) in enumerate(zip(layout.columns, displaced, strict=True)):
+    for number, (columns, own) in enumerate(zip(sources.columns, displaced, strict=True)):
         place |= dict(zip(columns, own, strict=True))
         for column in np.flatnonzero(turning(systems[number])) if systems else ():
             place[columns[column]] = xp.unwrap(own[column])
-    place |= dict(zip(layout.driven, rows, strict=True))  # inputs as they were given
+    place |= dict(zip(sources.driven, rows, strict=True))  # inputs as they were given
 
     def finished(row, otherwise: float | int = np.nan):
         return row if finite is None else xp.where(finite if row.ndim == 1 else finite[:, None], row, otherwise)
 
     moved = {
-        joint: finished(xp.stack([place.get((joint, k), nothing) for k in range(layout.freedoms[joint])], axis=1))
+        joint: finished(xp.stack([place.get((joint, k), nothing) for k in range(sources.freedoms[joint])], axis=1))
         for joint in sorted({joint for joint, _ in place})
     }
     resting = {
         freedoms: finished(xp.zeros((poses, freedoms), rows.dtype))
-        for freedoms in sorted({f for joint, f in enumerate(layout.freedoms) if joint not in moved})
+        for freedoms in sorted({f for joint, f in enumerate(sources.freedoms) if joint not in moved})
     }
     status = finished(xp.full(poses, Status.CLOSED.value, np.int32), Status.NONFINITE.value)
     return Collected(tuple(rows), moved, resting, status, finished(residual))
 
 
-_asked: Counter[tuple[int, int]] = Counter()
+_uses: Counter[tuple[int, int]] = Counter()
 """How often the results of a program (by its identity: they live as long as the process) had a number of poses."""
-_deal_out_program = jax.jit(_deal_out, static_argnums=(0, 1))
+_collect_program = jax.jit(_collect_chunks, static_argnums=(0, 1))
 
 
 @cache
@@ -242,11 +247,11 @@ def _program(systems: tuple[LoopSystem, ...], which: tuple[int, ...]):
 
 
 @cache
-def _single(layout: DisplacementSources, systems: tuple[LoopSystem, ...], which: tuple[int, ...]):
-    """Make the program of a single pose, which also deals it out to the joints."""
+def _single(sources: DisplacementSources, systems: tuple[LoopSystem, ...], which: tuple[int, ...]):
+    """Make the program of a single pose, which also collects it by joint."""
 
     def single(numbers, lines, rows, finite, tolerance: ClosureTolerance) -> tuple[Collected, Array]:
         found = _find(systems, which, numbers, lines, rows, tolerance)
-        return _deal_out(layout, None, [(found.displaced, found.residual)], rows, finite), found.proven
+        return _collect_chunks(sources, None, [(found.displaced, found.residual)], rows, finite), found.proven
 
     return jax.jit(single, **jit_options())

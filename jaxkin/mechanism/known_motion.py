@@ -31,7 +31,9 @@ if TYPE_CHECKING:
     from jaxkin.mechanism.motion import Motion
 
 Inputs = dict[str, Float[Array | np.ndarray, " poses"]]
+"""By "joint.coordinate" the displacements of the driven coordinates, or their derivatives of one order by time."""
 Follow = Callable[[Inputs], tuple[Float[Array, "poses _"], ...]]
+"""The displacements of all joints as a function of the inputs: see `follow`."""
 
 
 class KnownLoopGroup(NamedTuple):
@@ -42,14 +44,15 @@ class KnownLoopGroup(NamedTuple):
     inputs: tuple[str, ...]
     """Its inputs, in the order of `system.driven`."""
     refined: bool
-    """Whether the poses are those of least residual of other joints, and are closed here first."""
+    """Whether the poses are those of least residual of given joints that disagree: the loops of the ideal joints are
+    closed from there, before they are differentiated."""
 
 
 class KnownDrive(NamedTuple):
     """What follows from the drive of a motion, without numbers (static)."""
 
     freedoms: tuple[int, ...]
-    """Of every joint."""
+    """Number of coordinates of every joint."""
     driven: tuple[tuple[str, int, int], ...]
     """Name, joint and coordinate of every input."""
     loop_groups: tuple[KnownLoopGroup, ...]
@@ -81,7 +84,7 @@ def known_motion(motion: Motion) -> tuple[KnownDrive, KnownMotion]:
 def _numbers(plan: DrivePlan, motion: Motion) -> tuple[Joints | Axes, ...]:
     """Choose the numbers from which the derivatives of each loop group follow: the axes where no pose is singular."""
     joints = tuple(each.joints for each in plan.loop_groups)
-    if (formulas := plan.by_formula) is None or traced(motion.inputs) or not formulas.passes(motion.inputs):
+    if (formulas := plan.formula_sweep) is None or traced(motion.inputs) or not formulas.passes(motion.inputs):
         return joints
     return tuple(
         known.axes if system.planar else own
@@ -100,7 +103,7 @@ def follow(drive: KnownDrive, known: KnownMotion) -> Follow:
     finite = known.status != Status.NONFINITE.value
     at = tuple(jnp.where(finite[:, None], lax.stop_gradient(rows), 0.0) for rows in known.displacements)
 
-    def place(inputs: Inputs) -> tuple[Float[Array, "poses _"], ...]:
+    def displacements(inputs: Inputs) -> tuple[Float[Array, "poses _"], ...]:
         columns = {}
         for name, joint, k in drive.driven:
             given = inputs[name]
@@ -121,23 +124,24 @@ def follow(drive: KnownDrive, known: KnownMotion) -> Follow:
             for joint, rows in enumerate(at)
         )
 
-    return place
+    return displacements
 
 
 def derivatives(function: Callable, given: tuple) -> tuple:
-    """Differentiate a function of one variable along its curve: `given` are its value and its derivatives by time.
+    """Differentiate f(x(t)) with respect to time: `given` are x, x', x'', ..., each a pytree; returns f', f'', ...
 
-    Returns the derivatives of the function by time, as many as are given, without the function itself.
+    There are as many derivatives of f as of x. With D_n(x, x', ..., x^(n)) = (f, f', ..., f^(n)), the last entry of D_n
+    is the derivative of the last entry of D_(n-1) along (x', ..., x^(n)).
     """
 
-    def upto(order: int) -> Callable:
+    def up_to(order: int) -> Callable:
         if order == 0:
             return lambda value: (function(value),)
 
         def found(*given):
-            every, changes = jax.jvp(upto(order - 1), given[:-1], given[1:])
-            return *every, changes[-1]
+            lower, changes = jax.jvp(up_to(order - 1), given[:-1], given[1:])
+            return *lower, changes[-1]
 
         return found
 
-    return upto(len(given) - 1)(*given)[1:]
+    return up_to(len(given) - 1)(*given)[1:]

@@ -122,6 +122,6 @@ def _placed(joint: Joint, place: Place, q: Float[np.ndarray, " _"]) -> Joint:
 
 
 def _half(rotation: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3 3"]:
-    """The rotation about the same axis by half the angle, which is below half a turn: the rotation nearest to 1 + R."""
+    """Find the rotation about the same axis by half the angle, below half a turn: the rotation nearest to 1 + R."""
     left, _, right = np.linalg.svd(np.eye(3) + rotation)
     return left @ right

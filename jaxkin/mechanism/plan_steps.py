@@ -169,7 +169,7 @@ def _subgroup(loop_group: DrivenLoopGroup, group: Group, freedoms: LoopFreedoms)
     """Find the smallest subgroup that holds the moving coordinates of the loops of a group."""
     held = {joint for loop in group.loops for joint, _ in loop}
     columns = [freedoms.columns.index(place) for place in loop_group.columns if place[0] in held]
-    return subgroup(freedoms.assembled[:, columns], 10 * freedoms.thresholds.rank)
+    return subgroup(freedoms.assembled_screws[:, columns], 10 * freedoms.thresholds.rank)
 
 
 def _loop_class(loop_group: DrivenLoopGroup, number: int, group: Group) -> str:

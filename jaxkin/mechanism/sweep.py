@@ -27,7 +27,7 @@ from jaxkin.mechanism.targets import with_targets
 from jaxkin.solve.correctors.least_residual import least_residual
 from jaxkin.solve.execution.compiler import jit_options
 from jaxkin.solve.execution.known_numbers import KnownRange, Outcome, compile_together
-from jaxkin.solve.execution.programs import by_formulas, solve
+from jaxkin.solve.execution.programs import prefers_formulas, solve
 from jaxkin.solve.options import SolverOptions, options_with
 from jaxkin.solve.status import ClosureTolerance, default_tolerance, in_doubt, rounding_residual
 
@@ -95,6 +95,8 @@ def follow_drive(
 
 
 def _follow(mechanism: Mechanism, drive: Mapping[str, Any], options: SolverOptions, tolerance: Any) -> Motion:
+    """Solve the loop groups that a drive without targets moves, and collect them: by formulas in one program, else each
+    by `programs.solve`."""
     plan = plan_drive(mechanism.linkage, named(drive))
     values = given_values(plan.driven, drive)
     if plan.infeasible:
@@ -105,8 +107,8 @@ def _follow(mechanism: Mechanism, drive: Mapping[str, Any], options: SolverOptio
     followed, finite = with_finite_inputs(values)
     known = known and all(isinstance(each, np.ndarray) for each in followed)
     # by formulas for all loop groups in one program; where some have none, each loop group decides in `programs.solve`
-    if loop_groups and plan.by_formula is not None and known and by_formulas(options, followed[0]):
-        found = plan.by_formula.solve(followed, None if finite is None else np.asarray(finite), asked)
+    if loop_groups and plan.formula_sweep is not None and known and prefers_formulas(options, followed[0]):
+        found = plan.formula_sweep.solve(followed, None if finite is None else np.asarray(finite), asked)
         if found is not None:
             found = found if finite is None else found._replace(inputs=values)
             return _motion(mechanism, plan, found, options)
@@ -116,7 +118,7 @@ def _follow(mechanism: Mechanism, drive: Mapping[str, Any], options: SolverOptio
         compile_together(
             KnownRange(loop_group.system, options, loop_group.joints, each, asked)
             for loop_group, each in zip(loop_groups, inputs, strict=True)
-            if isinstance(each, np.ndarray) and (loop_group.axes is None or not by_formulas(options, each))
+            if isinstance(each, np.ndarray) and (loop_group.axes is None or not prefers_formulas(options, each))
         )
     solutions = [
         solve(loop_group.system, options, loop_group.joints, each, asked, loop_group.axes, loop_group.line)
@@ -124,12 +126,13 @@ def _follow(mechanism: Mechanism, drive: Mapping[str, Any], options: SolverOptio
     ]
     loop_groups, solutions = _of_least_residual(loop_groups, solutions, asked)
     columns = tuple(loop_group.columns for loop_group in loop_groups)
-    layout = DisplacementSources(plan.freedoms, tuple(plan.driven.values()), columns)
+    sources = DisplacementSources(plan.freedoms, tuple(plan.driven.values()), columns)
     collected = _whole_collect() if whole and not traced(solutions) else _collect
-    return _motion(mechanism, plan, collected(layout, values, finite, solutions), options)
+    return _motion(mechanism, plan, collected(sources, values, finite, solutions), options)
 
 
 def _motion(mechanism: Mechanism, plan: DrivePlan, found: Collected, options: SolverOptions) -> Motion:
+    """Make the motion of what was collected; if the assembled pose is a dead point, some statuses are `in_doubt`."""
     # under `grad` JAX hands arrays of the host through as they are
     arrays = (each if isinstance(each, jax.Array) else jnp.asarray(each) for each in found.inputs)
     inputs = dict(zip(plan.driven, arrays, strict=True))
@@ -142,7 +145,8 @@ def _motion(mechanism: Mechanism, plan: DrivePlan, found: Collected, options: So
 def _of_least_residual(
     loop_groups: Sequence[DrivenLoopGroup], solutions: Sequence[Solution], asked: ClosureTolerance
 ) -> tuple[list[DrivenLoopGroup], list[Solution]]:
-    """Replace solutions of ideal joints by the poses of least residual of the joints that were given."""
+    """Replace solutions of ideal joints by the poses of least residual of the joints that were given; of loop groups
+    whose given joints disagree (`DrivenLoopGroup.given`)."""
     every, found = list(loop_groups), list(solutions)
     for number, (loop_group, (rows, outcome)) in enumerate(zip(loop_groups, solutions, strict=True)):
         if loop_group.given is None:
@@ -169,13 +173,16 @@ def _largest_angle(driven: Iterable[str], values: Sequence[Given]) -> float:
 
 
 def closure_tolerance(asked: Any, largest_angle: float = 0.0) -> ClosureTolerance:
-    """Make the tolerance of a number, known or traced, or for None that of the floating-point precision, with which
-    angles up to the largest one are told apart."""
+    """Make the tolerance of a number, known or traced; for None that of the floating-point precision.
+
+    The latter is at least `FAR_ROUNDINGS` times the distance between neighbouring numbers at `largest_angle`, radians.
+    """
     dtype = dtypes.canonicalize_dtype(float)
     if asked is None or isinstance(asked, float):
         spacing = 0.0 if asked is not None else float(np.spacing(np.asarray(largest_angle, dtype)))
         return _known_tolerance(asked, dtype, spacing if FAR_ROUNDINGS * spacing > default_tolerance(dtype) else 0.0)
-    return ClosureTolerance(*[jnp.asarray(asked, dtype)] * 2)
+    asked = jnp.asarray(asked, dtype)
+    return ClosureTolerance(asked, asked)
 
 
 @lru_cache(maxsize=64)
@@ -185,7 +192,8 @@ def _known_tolerance(asked: float | None, dtype: np.dtype, spacing: float) -> Cl
         largest = max(default_tolerance(dtype), FAR_ROUNDINGS * spacing)
         residuals = largest, rounding_residual(dtype, DEFAULT_ROUNDINGS)
         return ClosureTolerance(*(np.asarray(residual, dtype) for residual in residuals))
-    return ClosureTolerance(*[np.asarray(asked, dtype)] * 2)
+    known = np.asarray(asked, dtype)
+    return ClosureTolerance(known, known)
 
 
 _collect = jax.jit(collect, static_argnums=0)
@@ -214,10 +222,10 @@ def padded(rows: list[Given]) -> Float[Array | np.ndarray, "driven padded"]:
         if traced(jax.device_put(np.zeros(0))):
             return np.stack(rows)
         # on the host: there it costs a copy, not a program for every length
-        padded = np.empty((len(rows), length), rows[0].dtype)
-        for whole, row in zip(padded, rows, strict=True):
+        filled = np.empty((len(rows), length), rows[0].dtype)
+        for whole, row in zip(filled, rows, strict=True):
             whole[:poses], whole[poses:] = row, row[-1]
-        return padded
+        return filled
     inputs = jnp.stack(rows)
     return inputs if traced(lax.stop_gradient(inputs)) else jnp.pad(inputs, ((0, 0), (0, length - poses)), mode="edge")
 
@@ -226,6 +234,7 @@ _warned = False
 
 
 def warn_of_float32() -> None:
+    """Warn, once in a process, where JAX computes in float32."""
     global _warned  # noqa: PLW0603
     if _warned or dtypes.canonicalize_dtype(float) == jnp.float64:
         return

@@ -53,7 +53,7 @@ def rounding(loops: ClosedLoops) -> float:
 
 
 def nearest_closed(loops: ClosedLoops, q: Row, least: float) -> tuple[Row, Rows]:
-    """Find the coordinates of least residual near `q`; returns them with the misfits of the loops there, six rows each.
+    """Find the coordinates of least residual near `q`; returns them with the residual there (`Travel.residual`).
 
     The steps are Gauss-Newton steps of least norm, without the directions whose singular values are below `least` times
     the largest.

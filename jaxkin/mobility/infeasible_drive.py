@@ -41,51 +41,79 @@ def infeasible_drive(linkage: Linkage, driven: Sequence[Coordinate]) -> Infeasib
     or nothing, since no part of it can be given alone.
     """
     for found, columns in _driven_groups(linkage, driven):
-        if _follows(found, columns):
-            continue
-        given = names(linkage, found, columns)
-        if not len(found.motions):
-            immobile = tuple(dict.fromkeys(row for pair in found.ends.values() for row in pair))
-            return InfeasibleDrive(f"{listed(given)} cannot be driven: {_loops_of(found)} has no freedom", immobile)
-        every, targets = _choices(found), _targets(linkage, found, columns)
-        choices = [group for group in every if not _is_target(linkage, found, group[0])]
-        movable = {column for group in every for column in group}
-        nearly = (
-            f"; jk.inverse meets the target {' and '.join(targets)} as nearly as the loops let it" if targets else ""
-        )
-        whose = {column: name for name, group in targets.items() for column in group}
-        stuck = [column for column in columns if column not in movable]
-        said = [f"a direction of {whose[c]}" if c in whose else names(linkage, found, [c])[0] for c in stuck]
-        if stuck := list(dict.fromkeys(said)):
-            what = "has no freedom left to it" if len(stuck) == 1 else "have no freedom left to them"
-            others = _or(linkage, found, _surest(found, choices))
-            instead = f"; what can be driven is {others}" if others else ""
-            return InfeasibleDrive(f"{listed(stuck)} {what} by the loops{instead}{nearly}", ())
-        whole = _independent_targets(found, targets)
-        of_targets = [column for name in whole for column in targets[name]]
-        order = [column for group in choices for column in group]
-        joints = sorted((column for column in columns if column in order), key=order.index)
-        kept = independent_subset(found, joints, of_targets)
-        freedoms = f"{len(found.motions)} freedom{'' if len(found.motions) == 1 else 's'}"
-        if (followed := independent(found.motions, columns, found.thresholds)) < len(found.motions):
-            freedoms += f", {followed} of them for these"
-        others = [group for group in _surest(found, choices) if not set(group) & set(kept)]
-        if kept or whole:
-            instead = f"drive only {listed([*whole, *names(linkage, found, sorted(kept))])}"
-            if len(kept) == 1 and not whole and others:
-                instead += f", or one of {_or(linkage, found, others)}"
-        elif len(found.motions) == 1:
-            instead = f"drive one of {_or(linkage, found, others)}"
-        else:
-            instead = f"drive {listed(names(linkage, found, independent_subset(found, order)))}"
-        return InfeasibleDrive(f"driven {listed(given)}, but {_loops_of(found)} has {freedoms}: {instead}{nearly}", ())
+        if not _follows(found, columns):
+            return _why_not(linkage, found, columns)
     return None
+
+
+def _why_not(linkage: Linkage, found: LoopFreedoms, columns: Sequence[int]) -> InfeasibleDrive:
+    """Say why loops cannot follow a drive of these columns.
+
+    They have no freedom at all, or none that moves one of the columns, or fewer than the drive asks for.
+    """
+    if not len(found.motions):
+        given = listed(names(linkage, found, columns))
+        immobile = tuple(dict.fromkeys(row for pair in found.ends.values() for row in pair))
+        return InfeasibleDrive(f"{given} cannot be driven: {_loops_of(found)} has no freedom", immobile)
+    every, targets = _choices(found), _targets(linkage, found, columns)
+    choices = [group for group in every if not _is_target(linkage, found, group[0])]
+    met = f"; jk.inverse meets the target {' and '.join(targets)} as nearly as the loops let it" if targets else ""
+    movable = {column for group in every for column in group}
+    if stuck := [column for column in columns if column not in movable]:
+        return InfeasibleDrive(_why_stuck(linkage, found, stuck, targets, choices) + met, ())
+    return InfeasibleDrive(_why_too_many(linkage, found, columns, targets, choices) + met, ())
+
+
+def _why_stuck(
+    linkage: Linkage,
+    found: LoopFreedoms,
+    stuck: Sequence[int],
+    targets: Mapping[str, list[int]],
+    choices: Sequence[tuple[int, ...]],
+) -> str:
+    """Say that no freedom of the loops moves the columns `stuck`, and which `choices` can be driven."""
+    whose = {column: name for name, group in targets.items() for column in group}
+    said = [f"a direction of {whose[c]}" if c in whose else names(linkage, found, [c])[0] for c in stuck]
+    said = list(dict.fromkeys(said))
+    what = "has no freedom left to it" if len(said) == 1 else "have no freedom left to them"
+    others = _or(linkage, found, _surest(found, choices))
+    return f"{listed(said)} {what} by the loops" + (f"; what can be driven is {others}" if others else "")
+
+
+def _why_too_many(
+    linkage: Linkage,
+    found: LoopFreedoms,
+    columns: Sequence[int],
+    targets: Mapping[str, list[int]],
+    choices: Sequence[tuple[int, ...]],
+) -> str:
+    """Say how many freedoms the loops have for a drive of these columns, and what to drive instead."""
+    whole = _independent_targets(found, targets)
+    of_targets = [column for name in whole for column in targets[name]]
+    order = [column for group in choices for column in group]
+    joints = sorted((column for column in columns if column in order), key=order.index)
+    kept = independent_subset(found, joints, of_targets)
+    freedoms = f"{len(found.motions)} freedom{'' if len(found.motions) == 1 else 's'}"
+    if (followed := independent(found.motions, columns, found.thresholds)) < len(found.motions):
+        freedoms += f", {followed} of them for these"
+    others = [group for group in _surest(found, choices) if not set(group) & set(kept)]
+    if kept or whole:
+        instead = f"drive only {listed([*whole, *names(linkage, found, sorted(kept))])}"
+        if len(kept) == 1 and not whole and others:
+            instead += f", or one of {_or(linkage, found, others)}"
+    elif len(found.motions) == 1:
+        instead = f"drive one of {_or(linkage, found, others)}"
+    else:
+        instead = f"drive {listed(names(linkage, found, independent_subset(found, order)))}"
+    given = listed(names(linkage, found, columns))
+    return f"driven {given}, but {_loops_of(found)} has {freedoms}: {instead}"
 
 
 def _follows(found: LoopFreedoms, columns: Sequence[int]) -> bool:
     """Tell whether the rates of these columns can be chosen independently, at the assembled pose or beside it."""
     return any(
-        independent(motions, columns, found.thresholds) == len(columns) for motions in (found.at_rest, found.motions)
+        independent(motions, columns, found.thresholds) == len(columns)
+        for motions in (found.assembled_motions, found.motions)
     )
 
 
@@ -129,8 +157,8 @@ def _choices(found: LoopFreedoms) -> list[tuple[int, ...]]:
 def _surest(found: LoopFreedoms, choices: Sequence[tuple[int, ...]]) -> Sequence[tuple[int, ...]]:
     """Select the groups that can be driven at the assembled pose too (not a slide at its dead point); all if none
     can."""
-    at_rest = [group for group in choices if independent(found.at_rest, group, found.thresholds) == len(group)]
-    return at_rest or choices
+    motions = found.assembled_motions
+    return [group for group in choices if independent(motions, group, found.thresholds) == len(group)] or choices
 
 
 def _or(linkage: Linkage, found: LoopFreedoms, groups: Sequence[Sequence[int]]) -> str:
@@ -145,14 +173,15 @@ def dead_point(linkage: Linkage, driven: Sequence[Coordinate]) -> str | None:
     none: which of two the motion goes to, and whether there is one, the drive does not say.
     """
     for found, columns in _driven_groups(linkage, driven):
-        moving = np.linalg.svd(found.at_rest[:, list(columns)], compute_uv=False) > AT_REST
+        motions = found.assembled_motions
+        moving = np.linalg.svd(motions[:, list(columns)], compute_uv=False) > AT_REST
         if moving.sum() == len(columns) or not _follows(found, columns):
             continue
         told = (
             f"the assembled pose is a dead point of {listed(names(linkage, found, columns))}, where two branches meet"
         )
         for group in _choices(found):
-            if len(group) == 1 and group[0] not in columns and np.abs(found.at_rest[:, group[0]]).max() > AT_REST:
+            if len(group) == 1 and group[0] not in columns and np.abs(motions[:, group[0]]).max() > AT_REST:
                 (name,) = names(linkage, found, group)
                 beside = f"mechanism.at(mechanism.sweep({{{name!r}: [0, 0.01]}}), 1)"
                 return f"{told}: drive {name}, or assemble the mechanism beside it, as {beside} does"

@@ -55,6 +55,7 @@ class LoopFreedoms:
 
     @cached_property
     def _home(self) -> tuple[Row, Travel]:
+        """Close the loops from the assembled pose: the scaled coordinates, and the quantities of the loops there."""
         return self._loops.closed(np.zeros(len(self.columns)))
 
     @property
@@ -63,7 +64,7 @@ class LoopFreedoms:
         return self._loops.coincide or self._home[1].residual_norm < self.thresholds.residual
 
     @property
-    def assembled(self) -> Screws:
+    def assembled_screws(self) -> Screws:
         """Twists of the coordinates (6, columns) at the assembled pose, in world coordinates."""
         return self._home[1].screws
 
@@ -87,12 +88,14 @@ class LoopFreedoms:
         along = generic - least_norm(jacobian, jacobian @ generic, 1e-12)
         there, found = self._loops.closed(home + _STEP * along)
         rank = null_space(self._jacobian(found), self.thresholds.rank)[0]
-        is_generic = found.residual_norm < self.thresholds.residual and rank >= len(self.columns) - len(self.at_rest)
+        assembled_rank = len(self.columns) - len(self.assembled_motions)
+        is_generic = found.residual_norm < self.thresholds.residual and rank >= assembled_rank
         return (there, found) if is_generic else self._home
 
     def _jacobian(self, there: Travel) -> Float[np.ndarray, "equations columns"]:
         """Compute the closure Jacobian at a closed pose, with the derivatives of the couplings below it."""
-        return np.concatenate([loop_jacobian(self.loop_group.loops, self.columns, there.screws), there.coupled])
+        of_loops = loop_jacobian(self.loop_group.loops, self.columns, there.screws)
+        return np.concatenate([of_loops, there.coupling_jacobian])
 
     @cached_property
     def jacobian(self) -> Float[np.ndarray, "equations columns"]:
@@ -110,17 +113,18 @@ class LoopFreedoms:
         return self._decomposed[1]
 
     @cached_property
-    def at_rest(self) -> Float[np.ndarray, "freedoms columns"]:
+    def assembled_motions(self) -> Float[np.ndarray, "freedoms columns"]:
         """An orthonormal basis of the rates that keep all loops closed at the assembled pose: perhaps more of them."""
         return null_space(self._jacobian(self._home[1]), self.thresholds.rank)[1]
 
     def subgroup(self, joints: Container[int]) -> Subgroup:
         """Find the smallest displacement subgroup that holds the motions of these joints."""
         columns = [column for column, (joint, _) in enumerate(self.columns) if joint in joints]
-        return subgroup(self.assembled[:, columns], 10 * self.thresholds.rank)
+        return subgroup(self.assembled_screws[:, columns], 10 * self.thresholds.rank)
 
     @cached_property
     def _decomposed(self) -> tuple[int, Float[np.ndarray, "freedoms columns"]]:
+        """Decompose `jacobian`: its rank, and a basis of its null space."""
         return null_space(self.jacobian, self.thresholds.rank)
 
 

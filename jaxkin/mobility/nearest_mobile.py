@@ -18,8 +18,9 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.pose import Pose, inverse
-from jaxkin.joints.screws import freedoms, moved
+from jaxkin.joints.screws import moved
 from jaxkin.linkage.first_order import null_space
 from jaxkin.linkage.host_closure import ClosedLoops, Row
 from jaxkin.mobility.consistency import cutoff, nearest_closed, rounding
@@ -98,19 +99,16 @@ def _held(jacobian: Float[np.ndarray, "equations columns"], least: float) -> Flo
 
 
 def _frame_jacobian(loops: ClosedLoops, frames: list[tuple[int, int]], q: Row) -> Float[np.ndarray, "equations twists"]:
-    """Differentiate the misfits of the loops with respect to twists of the frames, six columns a frame.
+    """Differentiate `Travel.residual` of the loops with respect to twists of the frames, six columns a frame.
 
     A frame that moves by `p` on both sides changes its displacement D by `p D - D p`: by the twist `p - Ad_D p`.
     """
     first = {frame: 6 * number for number, frame in enumerate(frames)}
     steps: dict[int, list[Pose]] = {}
     for joint, each in loops.chains.items():
-        own, start = q[loops.slices[joint]], 0
-        steps[joint] = []
-        for number, name in enumerate(each.movements):
-            stop = start + freedoms([name])
-            steps[joint].append(each.alone(number).displaced(own[start:stop])[0])
-            start = stop
+        own = q[loops.slices[joint]]
+        numbered = enumerate(coordinate_ranges(each.movements))
+        steps[joint] = [each.alone(n).displaced(own[columns.start : columns.stop])[0] for n, columns in numbered]
     jacobian = np.zeros((len(loops.loop_group.loops), 6, 6 * len(frames)))
     for rows, loop, pose in zip(jacobian, loops.loop_group.loops, loops.travel(q).starts, strict=True):
         for joint, sign in loop:

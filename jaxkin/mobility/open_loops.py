@@ -80,7 +80,7 @@ def tell_opening(linkage: Linkage, unit: str, loops: ClosedLoops, q: Row) -> Ope
     """
     found = loops.travel(q)
     loop_gaps = np.linalg.norm(found.left_open - np.eye(4), axis=(1, 2))
-    if np.abs(found.misfits).max(initial=0.0) > loop_gaps.max(initial=0.0):
+    if np.abs(found.coupling_residual).max(initial=0.0) > loop_gaps.max(initial=0.0):
         return _off_coupling(linkage, unit, loops, found)
     number = int(np.argmax(loop_gaps))
     loop, left = loops.loop_group.loops[number], found.left_open[number]
@@ -100,7 +100,7 @@ def tell_opening(linkage: Linkage, unit: str, loops: ClosedLoops, q: Row) -> Ope
 
 def _off_coupling(linkage: Linkage, unit: str, loops: ClosedLoops, found: Travel) -> Opening:
     """Tell of the coupling that is off the most."""
-    worst = int(np.argmax(np.abs(found.misfits)))
+    worst = int(np.argmax(np.abs(found.coupling_residual)))
     number = loops.loop_group.couplings[worst]
     joints = [joint for joint in linkage.joints if joint.name in linkage.structure.coupled[number]]
     return Opening(
@@ -108,7 +108,7 @@ def _off_coupling(linkage: Linkage, unit: str, loops: ClosedLoops, found: Travel
         parts=tuple(dict.fromkeys(part for joint in joints for part in joint.parts)),
         joints=tuple(joint.name for joint in joints),
         length=0.0,
-        angle=float(abs(found.misfits[worst])),
+        angle=float(abs(found.coupling_residual[worst])),
         joint=linkage.structure.coupled[number][-1],
         unit=unit,
         coupling=linkage.couplings[number].name,

@@ -46,7 +46,7 @@ def test_two_programs_serve_any_number_of_poses():
 
 
 def test_tolerances_of_earlier_sweeps_are_let_go():
-    sweep, values = plan_drive(planar_fourbar(1.3).linkage, ("A",)).by_formula, (np.linspace(0.0, 1.0, 2),)
+    sweep, values = plan_drive(planar_fourbar(1.3).linkage, ("A",)).formula_sweep, (np.linspace(0.0, 1.0, 2),)
     assert sweep is not None
     asked = [closure_tolerance(10.0**-power) for power in (5, 6)]
     earlier = weakref.ref(asked[0].max_residual)

@@ -40,17 +40,25 @@ def test_a_cut_leaves_three_equations_and_takes_three_unknowns_at_a_rod_one_and_
     assert (whole.equations, len(whole.used)) == (30, 36) and (cut.equations, len(cut.used)) == (5, 6)
 
 
-def test_chains_with_the_same_steps_go_one_way():
-    """Of a platform on six legs five rods are closed through the sixth: one way, and one through each of them."""
+def test_chains_with_the_same_rows_are_one_of_the_distinct():
+    """Of a platform on six legs five rods are closed through the sixth: one chain, and one through each of them."""
     table = chain_tables(systems(hexapod(), [f"leg {i}" for i in range(6)])[0])
-    assert (len(table.way), len(table.ways)) == (10, 6)
-    for chain, way in enumerate(table.way):
-        of_way = table.ways[way]
+    assert (len(table.same_rows_as), len(table.distinct)) == (10, 6)
+    for chain, number in enumerate(table.same_rows_as):
+        first = table.distinct[number]
         for name in ChainRow._fields:
-            np.testing.assert_array_equal(getattr(table, name)[:, chain], getattr(table, name)[:, of_way])
-    assert len({int(table.begin[chain]) for chain in np.flatnonzero(np.bincount(table.way)[table.way] > 1)}) == 5
+            np.testing.assert_array_equal(getattr(table, name)[:, chain], getattr(table, name)[:, first])
+    assert (
+        len(
+            {
+                int(table.begin[chain])
+                for chain in np.flatnonzero(np.bincount(table.same_rows_as)[table.same_rows_as] > 1)
+            }
+        )
+        == 5
+    )
     alone = chain_tables(systems(rssr_linkage(), ["A"])[0])
-    assert [*alone.ways] == [*alone.way] == [0, 1]
+    assert [*alone.distinct] == [*alone.same_rows_as] == [0, 1]
 
 
 def test_only_balls_of_one_loop_that_nothing_drives_are_cut():

@@ -31,10 +31,11 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin.effects.forces.balance_equations import equations, of_chords, second_derivative, stacked, tree_of
+from jaxkin.effects.forces.balance_equations import equations, gradient_by_chords, hessian, stacked, tree_of
 from jaxkin.effects.forces.changes import Rows
 from jaxkin.effects.forces.joint_balance import JointBalance, Wrenches
 from jaxkin.effects.forces.screws import Places, Scale, Twist, cross
+from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.coordinates import coordinate
@@ -75,19 +76,14 @@ def balance(linkage: Linkage, at: Places, displacements: Rows, driven: Sequence[
 
 
 def _free_balls(joint: Joint, driven: Sequence[int]) -> list[int]:
-    """The first coordinate of each ball at the end of a joint that has no drive."""
-    first, found = 0, []
-    for place, movement in enumerate(joint.movements):
-        driven_here = any(first <= k < first + len(MOVEMENTS[movement].coordinates) for k in driven)
-        # further ones are not at the point of the joint: their angles stay
-        if MOVEMENTS[movement].ball and not driven_here and place == len(joint.movements) - 1:
-            found.append(first)
-        first += len(MOVEMENTS[movement].coordinates)
-    return found
+    """List the first coordinate of each ball that ends the chain of a joint and has no drive."""
+    # balls before the end of the chain are not at the point of the joint: their angles stay
+    ends = list(zip(joint.movements, coordinate_ranges(joint.movements), strict=True))[-1:]
+    return [own[0] for movement, own in ends if MOVEMENTS[movement].ball and not set(own) & set(driven)]
 
 
 def coupling_gradients(linkage: Linkage, displacements: Sequence[Array], size: Any) -> list[dict[Any, Array]]:
-    """Derivative of each coupling by its coordinates, with lengths over the size."""
+    """Differentiate each coupling with respect to its coordinates (joint, coordinate), lengths over the size."""
     found = []
     for coupling in linkage.couplings:
         rows = {}
@@ -118,9 +114,10 @@ def solve(
     acting: dict[str, Wrenches],
     loaded: dict[tuple[int, int], Float[Array, " poses"]],
 ) -> Transmitted:
-    """Solve for what the joints transmit, of least norm.
+    """Solve the balance of all parts for what the joints transmit, of least norm.
 
-    `acting` is what acts on each part about the middle, `loaded` are loads in free coordinates, newtons.
+    `acting` are the wrenches that act on parts, about the middle; `loaded` are the loads t in free coordinates (joint,
+    coordinate), newtons.
     """
     poses = found.arms[0].shape[1]
     acting = {part: jnp.broadcast_to(wrench, (6, poses)) for part, wrench in acting.items()}
@@ -136,7 +133,7 @@ def _solve(
     acting: dict[str, Wrenches],
     loaded: dict[tuple[int, int], Float[Array, " poses"]],
 ) -> Transmitted:
-    """Solve for a group of poses."""
+    """Solve the balance for one group of poses: see `solve`."""
     tree, poses = tree_of(linkage), found.arms[0].shape[1]
     free = [
         [k for k in range(each.freedoms) if (number, k) not in driven] for number, each in enumerate(linkage.joints)
@@ -149,7 +146,7 @@ def _solve(
         return [jnp.stack(rows) if rows else jnp.zeros((0, poses)) for rows in each]
 
     loads, ties = in_free(loaded), [in_free(gradients) for gradients in found.gradients]
-    carried_by = carried(linkage, acting, poses)
+    carried_by = tree_wrenches(linkage, acting, poses)
     chords = len(tree.chords)
     count = 6 * chords
 
@@ -166,9 +163,10 @@ def _solve(
         begun, system = wrenches(z), equations(tree, joints, ties, poses)
         load = stacked([joint.scaled(own) for joint, own in zip(joints, loads, strict=True)], poses)
         right = load - stacked([joint.scaled(joint.along(w)) for joint, w in zip(joints, begun, strict=True)], poses)
-        normed = of_chords(tree, [joint.normed(w) for joint, w in zip(joints, begun, strict=True)], poses)
-        slope = jnp.concatenate([column_sums(system.chords, load) - normed, column_sums(system.couplings, right)])
-        z = minimise_constrained(second_derivative(tree, joints, system, poses), slope, system.rows, right)
+        by_wrenches = [joint.norm_gradient(w) for joint, w in zip(joints, begun, strict=True)]
+        by_chords = column_sums(system.chords, load) - gradient_by_chords(tree, by_wrenches, poses)
+        slope = jnp.concatenate([by_chords, column_sums(system.couplings, right)])
+        z = minimise_constrained(hessian(tree, joints, system, poses), slope, system.rows, right)
     every, held = wrenches(z), []
     for number, (own, joint) in enumerate(zip(free, joints, strict=True)):
         left = joint.along(every[number]) - loads[number]
@@ -180,8 +178,8 @@ def _solve(
     return Transmitted(tuple(every), tuple(held), tuple(z[count:]))
 
 
-def carried(linkage: Linkage, acting: dict[str, Any], poses: int) -> dict[int, Wrenches]:
-    """What each joint of the tree carries, by part 1 on part 2, of all that acts behind it."""
+def tree_wrenches(linkage: Linkage, acting: dict[str, Any], poses: int) -> dict[int, Wrenches]:
+    """Compute the wrench of each joint of the tree, by part 1 on part 2, that balances all that acts behind it: w_0."""
     none = jnp.zeros((6, poses))
     behind = {part: acting.get(part, none) for part, *_ in linkage.structure.tree}
     found = {}

@@ -17,12 +17,12 @@ from jaxkin.linkage.linkage import Linkage
 
 
 class Tree(NamedTuple):
-    """How wrenches go through the joints (static): see `tree_of`."""
+    """The spanning tree of joints that places the parts, and its chords (static): see `tree_of`."""
 
     chords: tuple[int, ...]
     """The joints that are not in the tree."""
     shares: tuple[tuple[int, ...], ...]
-    """For each joint and chord by which sign the wrench of the chord goes through the joint: -1, 0 or 1."""
+    """For each joint and chord the sign with which the wrench of the chord is part of that of the joint: -1, 0 or 1."""
 
 
 def tree_of(linkage: Linkage) -> Tree:
@@ -63,7 +63,7 @@ class Equations(NamedTuple):
 
 
 def equations(tree: Tree, joints: Sequence[JointBalance], ties: Sequence[Sequence[Array]], poses: int) -> Equations:
-    """Collect the equations of all joints."""
+    """Collect the equations T S^T w = T (t + g f) of all joints; `ties` are the gradients g of couplings, by joint."""
     by_chords, by_couplings = [jnp.zeros((0, 6 * len(tree.chords), poses))], [jnp.zeros((0, len(ties), poses))]
     for number, (joint, shares) in enumerate(zip(joints, tree.shares, strict=True)):
         screws = joint.scaled(joint.screws)
@@ -73,8 +73,8 @@ def equations(tree: Tree, joints: Sequence[JointBalance], ties: Sequence[Sequenc
     return Equations(jnp.concatenate(by_chords), jnp.concatenate(by_couplings))
 
 
-def blocks(tree: Tree, each: Sequence[Array], poses: int) -> Float[Array, "wrenches wrenches poses"]:
-    """Add up what second derivatives by the wrenches of the joints are by those of the chords."""
+def _hessian_by_chords(tree: Tree, each: Sequence[Array], poses: int) -> Float[Array, "wrenches wrenches poses"]:
+    """Compute a Hessian by the wrenches of the chords from those by the wrench of each joint, by the chain rule."""
     chords, none = len(tree.chords), jnp.zeros((6, 6, poses))
     rows = [
         [
@@ -86,8 +86,8 @@ def blocks(tree: Tree, each: Sequence[Array], poses: int) -> Float[Array, "wrenc
     return jnp.concatenate([jnp.concatenate(row, axis=1) for row in rows]) if rows else jnp.zeros((0, 0, poses))
 
 
-def of_chords(tree: Tree, each: Sequence[Wrenches], poses: int) -> Float[Array, "wrenches poses"]:
-    """Add up what derivatives by the wrenches of the joints are by those of the chords."""
+def gradient_by_chords(tree: Tree, each: Sequence[Wrenches], poses: int) -> Float[Array, "wrenches poses"]:
+    """Compute a gradient by the wrenches of the chords from those by the wrench of each joint, by the chain rule."""
     rows = [
         sum((own[c] * x for own, x in zip(tree.shares, each, strict=True) if own[c]), jnp.zeros((6, poses)))
         for c in range(len(tree.chords))
@@ -96,15 +96,13 @@ def of_chords(tree: Tree, each: Sequence[Wrenches], poses: int) -> Float[Array, 
 
 
 def stacked(rows: Sequence[Float[Array, "_ poses"]], poses: int) -> Float[Array, "_ poses"]:
-    """Stack the rows of all joints; no joints have none."""
+    """Stack the rows of all joints; without joints there are none."""
     return jnp.concatenate([jnp.zeros((0, poses)), *rows])
 
 
-def second_derivative(
-    tree: Tree, joints: Sequence[JointBalance], found: Equations, poses: int
-) -> Float[Array, "n n poses"]:
-    """The second derivative by all unknowns: see `jaxkin.effects.forces.balance`."""
-    by_chords = blocks(tree, [joint.norm() for joint in joints], poses)
+def hessian(tree: Tree, joints: Sequence[JointBalance], found: Equations, poses: int) -> Float[Array, "n n poses"]:
+    """Compute the Hessian, by x and f, of what is minimised: see the docstring of `jaxkin.effects.forces.balance`."""
+    by_chords = _hessian_by_chords(tree, [joint.norm_hessian() for joint in joints], poses)
     count = found.couplings.shape[1]
     if not count:
         return by_chords
@@ -116,5 +114,5 @@ def second_derivative(
 
 
 def _products(one: Float[Array, "rows a poses"], other: Float[Array, "rows b poses"]) -> Float[Array, "a b poses"]:
-    """one^T other, pose by pose."""
+    """Compute one^T other in each pose."""
     return jnp.sum(one[:, :, None] * other[:, None], axis=0)

@@ -15,17 +15,17 @@ from jaxkin.topology.components import connected
 
 Rows = tuple[Float[Array, "poses _"], ...]
 """Of all joints, in the order of `mechanism.joints`: radians, or the unit of the mechanism."""
-Columns = dict[tuple[int, int], Float[Array, " poses"]]
-"""By (joint, coordinate), of some coordinates."""
+ByCoordinate = dict[tuple[int, int], Float[Array, " poses"]]
+"""One number a pose for each of some coordinates (joint, coordinate)."""
 ORDER = 2
-"""Of the derivatives of the motion that forces follow from: the accelerations of masses."""
+"""Order of the derivatives of the motion from which forces follow: the accelerations of masses."""
 
 
 class Changes(NamedTuple):
     """A motion and its derivatives: for virtual work by each driven displacement, for motion by time."""
 
     displacements: Rows
-    along: dict[str, Columns]
+    along: dict[str, ByCoordinate]
     """First derivatives by each driven displacement, by its name, of the coordinates that it moves: those of a robot
     move a few of many."""
     velocity: Rows | None = None
@@ -42,7 +42,7 @@ def changes(drive: KnownDrive, known: KnownMotion, inputs: Inputs, rates: tuple[
     """
     parts, moves = _independent(drive, known), _moved(drive)
 
-    def along(inputs: Inputs) -> tuple[Rows, dict[str, Columns]]:
+    def along(inputs: Inputs) -> tuple[Rows, dict[str, ByCoordinate]]:
         rest = follow(drive._replace(loop_groups=()), known._replace(numbers=()))(inputs)
         here = {(joint, k): rows[:, k] for joint, rows in enumerate(rest) for k in range(rows.shape[1])}
         found = {name: {at: jnp.ones_like(inputs[name])} for name, (at, *more) in moves.items() if not more}
@@ -50,7 +50,7 @@ def changes(drive: KnownDrive, known: KnownMotion, inputs: Inputs, rates: tuple[
             own = {name: inputs[name] for name in names}
 
             def by(times: Any, own=own, place=place) -> tuple[Rows, Rows]:
-                """The derivative by the inputs, each so many times."""
+                """Evaluate, and differentiate along the inputs, each at the rate `times`."""
                 ones = {name: time * jnp.ones_like(own[name]) for name, time in zip(own, times, strict=True)}
                 return jax.jvp(place, (own,), (ones,))
 
@@ -58,8 +58,8 @@ def changes(drive: KnownDrive, known: KnownMotion, inputs: Inputs, rates: tuple[
                 rows, change = by([1.0])
                 every = [change]
             else:
-                rows, changes = jax.vmap(by, out_axes=(None, 0))(jnp.eye(len(names)))
-                every = [tuple(row[k] for row in changes) for k in range(len(names))]
+                rows, stacked = jax.vmap(by, out_axes=(None, 0))(jnp.eye(len(names)))
+                every = [tuple(row[k] for row in stacked) for k in range(len(names))]
             for name, change in zip(names, every, strict=True):
                 found[name] = {(joint, k): change[joint][:, k] for joint, k in moves[name]}
                 here |= {(joint, k): rows[joint][:, k] for joint, k in moves[name]}
@@ -73,8 +73,8 @@ def changes(drive: KnownDrive, known: KnownMotion, inputs: Inputs, rates: tuple[
     (here, each), (_, again) = jax.jvp(along, (inputs,), (first,))
     (name,) = inputs
     velocity = {at: column * first[name] for at, column in each[name].items()}
-    bent = {at: again[name][at] * first[name] + column * second[name] for at, column in each[name].items()}
-    return Changes(here, each, rows_of(velocity, here), rows_of(bent, here))
+    acceleration = {at: again[name][at] * first[name] + column * second[name] for at, column in each[name].items()}
+    return Changes(here, each, rows_of(velocity, here), rows_of(acceleration, here))
 
 
 def _independent(drive: KnownDrive, known: KnownMotion) -> list[tuple[list[str], Follow]]:
@@ -104,7 +104,7 @@ def _moved(drive: KnownDrive) -> dict[str, list[tuple[int, int]]]:
     }
 
 
-def rows_of(columns: Columns, like: Rows) -> Rows:
+def rows_of(columns: ByCoordinate, like: Rows) -> Rows:
     """Put columns together by joint; zero of the coordinates that have none."""
     return tuple(
         jnp.stack([columns.get((joint, k), jnp.zeros_like(rows[:, 0])) for k in range(rows.shape[1])], axis=1)

@@ -14,22 +14,23 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float, Int
 
-from jaxkin.effects.forces.balance import carried
-from jaxkin.effects.forces.changes import ORDER, Changes, Columns, Rows, changes, rows_of
+from jaxkin.effects.forces.balance import tree_wrenches
+from jaxkin.effects.forces.changes import ORDER, ByCoordinate, Changes, Rows, changes, rows_of
 from jaxkin.effects.forces.friction import friction
 from jaxkin.effects.forces.friction_result import Friction
 from jaxkin.effects.forces.given import Applied
 from jaxkin.effects.forces.masses import Masses
 from jaxkin.effects.forces.pose_groups import by_groups
 from jaxkin.effects.forces.potential import CarriedWeights, potential, weights_along_tree
-from jaxkin.effects.forces.screws import driven_by
+from jaxkin.effects.forces.screws import coordinates_of_motions
 from jaxkin.effects.forces.wrenches import (
     STANDARD_GRAVITY,
     Acting,
+    ActingNumbers,
     Loads,
     Moving,
-    Weights,
     Wrench,
+    acting_numbers,
     acting_on,
     check,
     given_rates,
@@ -37,7 +38,6 @@ from jaxkin.effects.forces.wrenches import (
     loads_and_frictions,
     metres_of,
     units_of,
-    weights,
 )
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.units import METRES
@@ -106,7 +106,7 @@ jax.tree_util.register_dataclass(DriveForces, data_fields=["motion", "forces", "
 
 
 def _range(values: np.ndarray, unit: str) -> str:
-    """Least, largest and root mean square of the numbers among values."""
+    """Say the least, the largest and the root mean square of the finite values."""
     if not np.isfinite(values).any():
         return "unknown"
     low, high = int(np.nanargmin(values)), int(np.nanargmax(values))
@@ -146,21 +146,21 @@ def drive_forces(
     mechanism = motion.mechanism
     drive, known = known_motion(motion)
     speeds = given_rates(motion, acting)
-    unit, linkage, acts = mechanism.unit, mechanism.linkage, weights(acting)
+    unit, linkage, numbers = mechanism.unit, mechanism.linkage, acting_numbers(acting)
     if speeds is None:  # without friction, which `check` refuses at rest
-        of_parts = None if acts.masses is None else weights_along_tree(linkage, acts.masses)
-        others = acts._replace(masses=None)
+        of_parts = None if numbers.masses is None else weights_along_tree(linkage, numbers.masses)
+        others = numbers._replace(masses=None)
         return DriveForces(motion, *_at_rest(drive, unit, linkage, known, motion.inputs, others, of_parts))
     found = changes(drive, known, motion.inputs, speeds)
     frictions = loads_and_frictions(acting)[1]
     if not frictions:
-        return DriveForces(motion, *_in_motion(drive, unit, linkage, known.status, found, speeds[0], acts))
-    moving, sums = acting_on(unit, True, linkage, found, acts)
-    rubs, losses = friction(motion, drive, moving, sums, frictions)
-    forces, powers = _forces(drive, unit, linkage, known.status, moving, sums, rubs, found.along, speeds[0])
-    if losses is not None:
-        forces, powers = (jax.tree.map(partial(jnp.where, losses.locked, jnp.nan), each) for each in (forces, powers))
-    return DriveForces(motion, forces, powers, losses)
+        return DriveForces(motion, *_in_motion(drive, unit, linkage, known.status, found, speeds[0], numbers))
+    moving, all_loads = acting_on(unit, True, linkage, found, numbers)
+    frictional, result = friction(motion, drive, moving, all_loads, frictions)
+    forces, powers = _forces(drive, unit, linkage, known.status, moving, all_loads, frictional, found.along, speeds[0])
+    if result is not None:
+        forces, powers = (jax.tree.map(partial(jnp.where, result.locked, jnp.nan), each) for each in (forces, powers))
+    return DriveForces(motion, forces, powers, result)
 
 
 @partial(whole_program, static=(0, 1))
@@ -170,26 +170,26 @@ def _at_rest(
     linkage: Linkage,
     known: KnownMotion,
     inputs: Inputs,
-    acting: Weights,
+    acting: ActingNumbers,
     of_parts: CarriedWeights | None,
 ) -> tuple[Inputs, Inputs]:
     """Compute force and power of each driven coordinate at rest, in one program, by groups of poses.
 
-    The force of the weights `of_parts` is the derivative of their potential energy; what else acts, without masses, is
-    placed in each pose. Derivatives by the drive stay in the cache: 10,000 poses of a four-bar take 1.1 ms of a
+    The force of the weights `of_parts` is the derivative of their potential energy. The loads `acting`, without masses,
+    are placed in each pose. Derivatives by the drive stay in the cache: 10,000 poses of a four-bar take 1.1 ms of a
     processor by groups, and 1.6 at once. In motion one program takes longer than three, by groups as well: 5.7 ms and
     4.5.
     """
 
-    def of_group(given: tuple[Rows, Int[Array, " poses"], Inputs], acting: Weights) -> Inputs:
+    def of_group(given: tuple[Rows, Int[Array, " poses"], Inputs], acting: ActingNumbers) -> Inputs:
         displacements, status, inputs = given
         own = known._replace(displacements=displacements, status=status)
         # without the barrier XLA computes derivatives anew wherever they are used
         found = lax.optimization_barrier(changes(drive, own, inputs, None))
         forces: Inputs = dict.fromkeys(found.along, jnp.zeros(len(status)))
         if acting.applied:
-            moving, sums = acting_on(unit, False, linkage, found, acting)
-            forces, _ = _forces(drive, unit, linkage, status, moving, sums, {}, found.along, None)
+            moving, all_loads = acting_on(unit, False, linkage, found, acting)
+            forces, _ = _forces(drive, unit, linkage, status, moving, all_loads, {}, found.along, None)
         if of_parts is not None:
             slopes = _slopes(partial(potential, linkage, of_parts, acting.gravity), found)
             for name, joint, index in drive.driven:
@@ -224,15 +224,15 @@ def _in_motion(
     status: Int[Array, " poses"],
     found: Changes,
     rates: Inputs,
-    acting: Weights,
+    acting: ActingNumbers,
 ) -> tuple[Inputs, Inputs]:
     """Compute force and power of each driven coordinate without friction, by groups of poses."""
 
-    def of_group(given: tuple[Int[Array, " poses"], Changes, Inputs], acting: Weights) -> tuple[Inputs, Inputs]:
+    def of_group(given: tuple[Int[Array, " poses"], Changes, Inputs], acting: ActingNumbers) -> tuple[Inputs, Inputs]:
         status, found, rates = given
         moving = Moving.of(linkage, found, chords=False)
-        sums = loads(linkage, unit, acting, moving)
-        return _forces(drive, unit, linkage, status, moving, sums, {}, found.along, rates)
+        all_loads = loads(linkage, unit, acting, moving)
+        return _forces(drive, unit, linkage, status, moving, all_loads, {}, found.along, rates)
 
     return by_groups(of_group, (status, found, rates), acting)
 
@@ -244,14 +244,20 @@ def _forces(
     linkage: Linkage,
     status: Int[Array, " poses"],
     moving: Moving,
-    acts: Loads,
-    rubs: dict[int, Wrench],
-    along: dict[str, Columns],
+    all_loads: Loads,
+    frictional: dict[int, Wrench],
+    along: dict[str, ByCoordinate],
     rates: Inputs | None,
 ) -> tuple[Inputs, Inputs]:
-    """Compute force and power of each driven coordinate."""
+    """Compute force and power of each driven coordinate u.
+
+    With W_k of `_by_coordinate`, the force is the sum of dq_k/du W_k over the coordinates q_k that u moves; `along` are
+    the dq_k/du. The wrenches `frictional` of friction act on part 2 of joints, by number. Without `rates` powers are
+    zero.
+    """
     closed = is_closed_on_branch(status)
-    work = _by_coordinate(linkage, unit, acts, rubs, moving, carried(linkage, acts.parts, len(status)))
+    sent = tree_wrenches(linkage, all_loads.parts, len(status))
+    work = _by_coordinate(linkage, unit, all_loads, frictional, moving, sent)
     forces, powers = {}, {}
     for name, joint, index in drive.driven:
         force = sum((change * work[at] for at, change in along[name].items() if at in work), jnp.zeros(len(status)))
@@ -265,25 +271,25 @@ def _forces(
 def _by_coordinate(
     linkage: Linkage,
     unit: str,
-    acts: Loads,
-    rubs: dict[int, Wrench],
+    all_loads: Loads,
+    frictional: dict[int, Wrench],
     moving: Moving,
     sent: dict[int, Wrench],
 ) -> dict[tuple[int, int], Float[Array, " poses"]]:
-    """Find what holds all loads along each coordinate (joint, coordinate): joules per radian, or per unit of the
-    mechanism.
+    """Compute the generalised force that balances all loads for each (joint, coordinate): joules per radian, or per
+    unit of length of the mechanism.
 
-    What acts on the parts is carried by the joints of the tree, each of which gives way along its coordinates.
+    What acts on the parts is carried by the joints of the tree, by the wrenches `sent`.
     """
     scale, found = moving.at.scale, {}
-    for sign, wrenches in ((1, sent), (-1, rubs)):
+    for sign, wrenches in ((1, sent), (-1, frictional)):
         for number, wrench in wrenches.items():
             joint = linkage.joints[number]
             units = scale.of_coordinates(joint)
-            for k, twist in zip(driven_by(joint), moving.at.joints[number].twists, strict=True):
+            for k, twist in zip(coordinates_of_motions(joint), moving.at.joints[number].twists, strict=True):
                 term = sign * scale.size * METRES[unit] / units[k] * jnp.sum(wrench * twist, axis=0)
                 found[number, k] = found.get((number, k), 0.0) + term
-    for (number, k), load in acts.joints.items():
+    for (number, k), load in all_loads.joints.items():
         metre = metres_of(linkage.joints[number].coordinates[k], unit)
         found[number, k] = found.get((number, k), 0.0) - metre * load
     return found

@@ -65,7 +65,7 @@ class Sliding(NamedTuple):
 
 
 def friction(
-    motion: Motion, drive: KnownDrive, moving: Moving, acts: Loads, given: Sequence[JointFriction]
+    motion: Motion, drive: KnownDrive, moving: Moving, all_loads: Loads, given: Sequence[JointFriction]
 ) -> tuple[dict[int, Twist], Friction | None]:
     """Find the wrench of friction on part 2 of each joint, by its number, about the middle; none where none is given.
 
@@ -74,7 +74,7 @@ def friction(
     if not given:
         return {}, None
     mechanism = motion.mechanism
-    wrenches, locked, found = _solved(drive, mechanism.unit, mechanism.linkage, moving, acts, tuple(given))
+    wrenches, locked, found = _solved(drive, mechanism.unit, mechanism.linkage, moving, all_loads, tuple(given))
     locked = locked & motion.closed
     known = motion.closed & ~locked
     normal, limit, losses, rests = (
@@ -88,15 +88,15 @@ def friction(
 
 @partial(whole_program, static=(0, 1))
 def _solved(
-    drive: KnownDrive, unit: str, linkage: Linkage, moving: Moving, acts: Loads, given: tuple[JointFriction, ...]
+    drive: KnownDrive, unit: str, linkage: Linkage, moving: Moving, all_loads: Loads, given: tuple[JointFriction, ...]
 ) -> tuple[dict[int, Twist], Bool[Array, " poses"], tuple[list[Array], ...]]:
-    """Wrenches of friction, whether poses lock, and for each joint N, mu N, watts, and whether it rests."""
+    """Compute the wrenches of friction, whether poses lock, and for each joint N, mu N, watts, and whether it rests."""
     names = [joint.name for joint in linkage.joints]
     numbers = [names.index(each.joint) for each in given]
     slides = [_sliding(linkage, moving, number, each) for number, each in zip(numbers, given, strict=True)]
     most = [jnp.asarray(each.coefficient, float) for each in given]
     full = [mu * slide.against for mu, slide in zip(most, slides, strict=True)]
-    normal, locked = _normal_forces(*_pressing(drive, unit, linkage, moving, acts, given, numbers, full))
+    normal, locked = _normal_forces(*_pressing(drive, unit, linkage, moving, all_loads, given, numbers, full))
     wrenches = {number: pressed * wrench for number, pressed, wrench in zip(numbers, normal, full, strict=True)}
     lever = moving.at.scale.size * METRES[unit]
     losses = [
@@ -107,7 +107,7 @@ def _solved(
 
 
 def _twist_in(linkage: Linkage, moving: Moving, number: int) -> Twist:
-    """Twist of part 2 of a joint relative to part 1, about the middle."""
+    """Compute the twist of part 2 of a joint relative to part 1, about the middle."""
     rates = moving.velocity[number] if moving.velocity else jnp.zeros_like(moving.displacements[number])
     return relative_twist(linkage.joints[number], moving.at.joints[number], rates, moving.at.scale)
 
@@ -132,23 +132,23 @@ def _pressing(
     unit: str,
     linkage: Linkage,
     moving: Moving,
-    acts: Loads,
+    all_loads: Loads,
     given: Sequence[JointFriction],
     numbers: Sequence[int],
     full: Sequence[Twist],
 ) -> tuple[Float[Array, "joints 4 poses"], Float[Array, "joints joints 4 poses"]]:
-    """What presses each joint without friction, and for one newton of N in each joint: c_0, and C by (k, j)."""
+    """Compute what presses each joint without friction, c_0, and per newton of N in each joint, C by (k, j)."""
     driven = [(joint, k) for _, joint, k in drive.driven]
     found = balance(linkage, moving.at, moving.displacements, driven)
     lever = moving.at.scale.size * METRES[unit]
     poses = found.arms[0].shape[1]
 
     def pressed(
-        acting: dict[str, Twist], loaded: dict[tuple[int, int], Array], rubs: Float[Array, "joints poses"]
+        acting: dict[str, Twist], loaded: dict[tuple[int, int], Array], friction_loads: Float[Array, "joints poses"]
     ) -> Float[Array, "joints 4 poses"]:
         sent = solve(linkage, found, driven, acting, loaded).wrenches
-        each = zip(numbers, given, rubs, strict=True)
-        return jnp.stack([_pressed(linkage, moving, number, own, sent[number], rub) for number, own, rub in each])
+        each = zip(numbers, given, friction_loads, strict=True)
+        return jnp.stack([_pressed(linkage, moving, number, own, sent[number], load) for number, own, load in each])
 
     # without friction first, then one newton of N in each joint
     loaded = {
@@ -157,7 +157,7 @@ def _pressing(
         for k in range(joint.freedoms)
         if (number, k) not in driven
     }
-    for (number, k), load in acts.joints.items():
+    for (number, k), load in all_loads.joints.items():
         if (number, k) in loaded:
             own = load / (1.0 if is_length(linkage.joints[number].coordinates[k]) else lever)
             loaded[number, k] = loaded[number, k].at[0].set(own)
@@ -167,13 +167,13 @@ def _pressing(
                 loaded[number, k] = loaded[number, k].at[row].set(jnp.sum(wrench * screw, axis=0))
     acting = {
         part: jnp.zeros((len(given) + 1, 6, poses)).at[0].set(jnp.broadcast_to(wrench, (6, poses)))
-        for part, wrench in acts.parts.items()
+        for part, wrench in all_loads.parts.items()
     }
     turning = jnp.stack(
         [jnp.sum(wrench * found.screws[number][-1], axis=0) for number, wrench in zip(numbers, full, strict=True)]
     )
-    rubs = jnp.concatenate([jnp.zeros((1, *turning.shape)), jnp.eye(len(given))[:, :, None] * turning])
-    every = jax.vmap(pressed)(acting, loaded, rubs)
+    friction_loads = jnp.concatenate([jnp.zeros((1, *turning.shape)), jnp.eye(len(given))[:, :, None] * turning])
+    every = jax.vmap(pressed)(acting, loaded, friction_loads)
     return every[0], every[1:]
 
 
@@ -183,13 +183,13 @@ def _pressed(
     number: int,
     given: JointFriction,
     wrench: Twist,
-    rubs: Float[Array, " poses"],
+    friction_load: Float[Array, " poses"],
 ) -> Float[Array, "4 poses"]:
-    """What presses the faces of a joint together, of the wrench that it transmits: N is the length of these rows.
+    """Select from the wrench that a joint transmits what presses its faces together: N is the length of these rows.
 
     A screw of radius r and advance p transmits through its thread the force F along its axis, and the torque T with
-    T + p F = `rubs`, the load of friction along its coordinate: what else acts there, such as its drive, is a torque
-    beside the thread. Across the thread this is (r F - p T / r) / h = F h / r - rubs p / (r h), h^2 = r^2 + p^2.
+    T + p F = L, the `friction_load` along its coordinate: what else acts there, such as its drive, is a torque beside
+    the thread. Across the thread this is (r F - p T / r) / h = F h / r - L p / (r h), h^2 = r^2 + p^2.
     """
     (movement,), own = (MOVEMENTS[name] for name in linkage.joints[number].movements), moving.at.joints[number]
     which, force, helical = FRICTION_OF[movement.pair], wrench[3:], movement.pair == JointKind.SCREW
@@ -204,7 +204,7 @@ def _pressed(
     radius = jnp.asarray(given.radius, float) / moving.at.scale.size
     advance = jnp.sum(velocity_at(own.twists[-1], own.point) * axis, axis=0)
     slant = jnp.sqrt(radius**2 + advance**2)
-    through = far * slant / radius - rubs * advance / (radius * slant)
+    through = far * slant / radius - friction_load * advance / (radius * slant)
     return jnp.concatenate([across, through[None]])
 
 
@@ -215,7 +215,7 @@ def _normal_forces(
     unit = jnp.eye(len(c_0))
 
     def step(c_0: Array, by: Array, normal: Array) -> tuple[Array, Array, Array]:
-        """A step of Newton's method; the error before it, and the determinant of the Jacobian."""
+        """Take a step of Newton's method; returns also the error before it, and the determinant of the Jacobian."""
         c = c_0 + jnp.sum(by * normal[:, None, None], axis=0)
         square = jnp.sum(c**2, axis=1)
         size = jnp.sqrt(jnp.where(square > 0, square, 1.0)) * jnp.where(square > 0, 1.0, 0.0)

@@ -177,7 +177,7 @@ def joint_friction(joint: str, coefficient: Any, *, radius: Any = None, smooth: 
 
 
 def _one(given: Any, what: str, name: str) -> Any:
-    """One number from zero on; ValueError for others."""
+    """Check one number from zero on; ValueError for others."""
     found = one_number(given, f"the {name} of {what}", "one number from 0 on")
     if not traced(found) and found < 0:
         raise ValueError(f"the {name} of {what} must be one number from 0 on, got {given!r}")
@@ -185,7 +185,7 @@ def _one(given: Any, what: str, name: str) -> Any:
 
 
 def _vectors(given: Any, what: str, one: bool = False) -> Vectors:
-    """Three numbers, or unless `one`, rows of three; ValueError for others."""
+    """Check three numbers, or unless `one`, rows of three; ValueError for others."""
     found = numbers(given, what, "three numbers (x, y, z)")
     if found.shape[-1:] != (3,) or found.ndim > (1 if one else 2):
         rows = "" if one else ", or one row of them a pose"
@@ -194,7 +194,7 @@ def _vectors(given: Any, what: str, one: bool = False) -> Vectors:
 
 
 def _numbers(given: Any, what: str) -> Numbers:
-    """One number, or one a pose; ValueError for others, and for one that is not finite.
+    """Check one number, or one a pose; ValueError for others, and for one that is not finite.
 
     Of several some may be NaN, where nothing was measured: so are the forces of those poses.
     """

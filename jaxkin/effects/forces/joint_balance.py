@@ -29,6 +29,7 @@ class JointBalance(NamedTuple):
 
     @staticmethod
     def of(arm: Float[Array, "3 poses"], every: Sequence[Twist], free: Sequence[int]) -> JointBalance:
+        """Select the `free` ones of the unit twists of all coordinates of a joint, whose point is at `arm`."""
         poses = arm.shape[1]
         if not free:
             return JointBalance(arm, jnp.zeros((0, 6, poses)), jnp.zeros((0, 0, poses)))
@@ -38,25 +39,25 @@ class JointBalance(NamedTuple):
         return JointBalance(arm, screws, orthonormal_rows(rows).made_by)
 
     def along(self, wrench: Wrenches) -> Float[Array, "free poses"]:
-        """S^T w."""
+        """Compute S^T w, the loads along the freedoms."""
         return jnp.sum(self.screws * wrench[None], axis=1)
 
     def scaled(self, rows: Float[Array, "free *sides poses"]) -> Float[Array, "free *sides poses"]:
-        """T times rows: equations along the freedoms, whose errors have the norm of wrenches."""
+        """Multiply rows by T: equations along the freedoms, whose errors have the norm of wrenches."""
         made_by = self.made_by if rows.ndim == 2 else self.made_by[:, :, None]
         return jnp.sum(made_by * rows[None], axis=1)
 
     def at_point(self, wrench: Wrenches) -> Wrenches:
-        """The wrench about the point of the joint."""
+        """Refer a wrench to the point of the joint."""
         return jnp.concatenate([wrench[:3] - cross(self.arm, wrench[3:]), wrench[3:]])
 
-    def normed(self, wrench: Wrenches) -> Wrenches:
-        """Derivative of |w|^2 / 2 by the wrench, the norm taken at the point of the joint."""
+    def norm_gradient(self, wrench: Wrenches) -> Wrenches:
+        """Differentiate |w|^2 / 2 with respect to the wrench w, the norm taken at the point of the joint."""
         own = self.at_point(wrench)
         return jnp.concatenate([own[:3], own[3:] + cross(self.arm, own[:3])])
 
-    def norm(self) -> Float[Array, "6 6 poses"]:
-        """Second derivative of |w|^2 / 2, the norm taken at the point of the joint."""
+    def norm_hessian(self) -> Float[Array, "6 6 poses"]:
+        """Differentiate |w|^2 / 2 twice with respect to the wrench w, the norm taken at the point of the joint."""
         x, y, z = self.arm
         none = jnp.zeros_like(x)
         lever = jnp.stack([none, -z, y, z, none, -x, -y, x, none]).reshape(3, 3, -1)

@@ -160,7 +160,7 @@ def _what_is_missing(missing: Sequence[str], solids: Mapping[str, Part], density
 
 
 def _densities(density: Any, solids: Sequence[Part]) -> tuple[dict[str, Any], set[str]]:
-    """Density of each part that has one, kg/m^3, and the parts that it names by more than "*"."""
+    """Look up the density of each part that has one, kg/m^3, and the parts that it names by more than "*"."""
     if density is None:
         return {}, set()
     if not isinstance(density, Mapping):
@@ -190,13 +190,13 @@ def _density(given: Any) -> Any:
 
 
 def _of_solid(part: Part, density: Any, metre: float) -> tuple[Any, Any, Any]:
-    """Mass, centre and inertia of a solid of some density."""
+    """Compute mass, centre and inertia of a solid of some density."""
     volume, centre, inertia = _volume(part)
     return density * volume * metre**3, centre, density * inertia * metre**5
 
 
 def _volume(part: Part) -> tuple[float, np.ndarray, np.ndarray]:
-    """Volume, centre and inertia for a density of one, all in the unit of the part; ValueError for open surfaces."""
+    """Compute volume, centre and inertia for a density of one, unit of the part; ValueError for open surfaces."""
     import trimesh
 
     middle = part.box.mean(axis=0)  # far from the origin of the world the digits would be lost
@@ -213,7 +213,7 @@ def _volume(part: Part) -> tuple[float, np.ndarray, np.ndarray]:
 
 
 def _given(name: str, given: Any, part: Part | None, metre: float) -> tuple[Any, Any, Any]:
-    """Mass, centre and inertia of a part as given, completed from its solid."""
+    """Complete mass, centre and inertia of a part, as given, from its solid."""
     given = given if isinstance(given, Mass) else Mass(given)
     if (
         isinstance(given.mass, str)
@@ -262,7 +262,7 @@ def _check_inertia(name: str, inertia: Any) -> None:
 
 
 def _shaped(name: str, what: str, value: Any, shape: tuple[int, ...]) -> Any:
-    """Numbers of one shape; ValueError for others."""
+    """Check numbers of one shape; ValueError for others."""
     try:
         found = (jnp if traced(value) else np).asarray(value, float)
     except (TypeError, ValueError):

@@ -9,7 +9,7 @@ from typing import Any
 import jax.numpy as jnp
 
 from jaxkin.effects.forces.given import rows_per_pose
-from jaxkin.effects.forces.wrenches import Weights
+from jaxkin.effects.forces.wrenches import ActingNumbers
 from jaxkin.solve.range.groups import in_groups
 
 GROUP = 512
@@ -17,7 +17,7 @@ GROUP = 512
 processor in groups of 128, 10 of 512, 12 of 1,024, and 15 where all poses were placed before they were solved."""
 
 
-def by_groups(function: Callable[[Any, Weights], Any], given: Any, acting: Weights) -> Any:
+def by_groups(function: Callable[[Any, ActingNumbers], Any], given: Any, acting: ActingNumbers) -> Any:
     """Apply `function(given, acting)` to groups of poses, and join what it returns.
 
     `given`, what the function returns, and those numbers of `acting` that are given for each pose, are pytrees of

@@ -27,17 +27,17 @@ from jaxkin.effects.forces.undetermined import Undetermined, undetermined
 from jaxkin.effects.forces.wrenches import (
     STANDARD_GRAVITY,
     Acting,
+    ActingNumbers,
     Loads,
     Moving,
-    Weights,
     Wrench,
+    acting_numbers,
     acting_on,
     check,
     given_rates,
     loads,
     loads_and_frictions,
     units_of,
-    weights,
 )
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.movements import is_length
@@ -54,7 +54,8 @@ MAX_LINES = 12
 MAX_HELD = 4
 """Coordinates without a drive that a printed result names at most: one idle freedom may show in several."""
 HELD = 1e-6
-"""Force that holds a freedom, over the largest force, above which it is told: far above rounding."""
+"""Force that would hold a coordinate without a drive, over the largest reaction, above which a printed result names it:
+far above rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -178,25 +179,25 @@ def reactions(
     speeds = given_rates(motion, acting)
     # at rest nothing is differentiated
     found = unmoved(drive, known, motion.inputs) if speeds is None else changes(drive, known, motion.inputs, speeds)
-    unit, linkage, acts, losses = mechanism.unit, mechanism.linkage, weights(acting), None
+    unit, linkage, numbers, result = mechanism.unit, mechanism.linkage, acting_numbers(acting), None
     if frictions := loads_and_frictions(acting)[1]:
-        moving, sums = acting_on(unit, True, linkage, found, acts)
-        rubs, losses = friction(motion, drive, moving, sums, frictions)
-        found = _balanced(drive, unit, linkage, known.status, moving, sums, rubs)
-        if losses is not None:
-            found = found[0], *jax.tree.map(partial(_unless, losses.locked), found[1:])
+        moving, all_loads = acting_on(unit, True, linkage, found, numbers)
+        frictional, result = friction(motion, drive, moving, all_loads, frictions)
+        found = _balanced(drive, unit, linkage, known.status, moving, all_loads, frictional)
+        if result is not None:
+            found = found[0], *jax.tree.map(partial(_nan_where, result.locked), found[1:])
     else:
-        found = _without_friction(drive, unit, linkage, known.status, found, acts)
+        found = _without_friction(drive, unit, linkage, known.status, found, numbers)
     places, forces, torques, drives, held = found
 
     def named(rows: Sequence[Array]) -> Named[Array]:
         return Named("joint", zip(mechanism.joints, rows, strict=True))
 
-    return Reactions(motion, named(places), named(forces), named(torques), drives, named(held), losses)
+    return Reactions(motion, named(places), named(forces), named(torques), drives, named(held), result)
 
 
-def _unless(locked: Array, rows: Array) -> Array:
-    """Set the rows of some poses to NaN."""
+def _nan_where(locked: Array, rows: Array) -> Array:
+    """Set the rows of the `locked` poses to NaN."""
     return jnp.where(locked.reshape(-1, *[1] * (rows.ndim - 1)), jnp.nan, rows)
 
 
@@ -205,11 +206,13 @@ Rows = tuple[Float[Array, "poses _"], ...]
 
 @partial(whole_program, static=(0, 1))
 def _without_friction(
-    drive: KnownDrive, unit: str, linkage: Linkage, status: Int[Array, " poses"], found: Changes, acting: Weights
+    drive: KnownDrive, unit: str, linkage: Linkage, status: Int[Array, " poses"], found: Changes, acting: ActingNumbers
 ) -> tuple[Rows, Rows, Rows, Inputs, Rows]:
-    """What `_balanced` returns, placed and solved by groups of poses."""
+    """Compute what `_balanced` returns, by groups of poses that are placed and solved one after another."""
 
-    def of_group(given: tuple[Int[Array, " poses"], Changes], acting: Weights) -> tuple[Rows, Rows, Rows, Inputs, Rows]:
+    def of_group(
+        given: tuple[Int[Array, " poses"], Changes], acting: ActingNumbers
+    ) -> tuple[Rows, Rows, Rows, Inputs, Rows]:
         status, found = given
         moving = Moving.of(linkage, found, chords=True)
         return _balanced(drive, unit, linkage, status, moving, loads(linkage, unit, acting, moving), {})
@@ -224,25 +227,28 @@ def _balanced(
     linkage: Linkage,
     status: Int[Array, " poses"],
     moving: Moving,
-    acts: Loads,
-    rubs: dict[int, Wrench],
+    all_loads: Loads,
+    frictional: dict[int, Wrench],
 ) -> tuple[Rows, Rows, Rows, Inputs, Rows]:
-    """Points of the joints, forces, torques about the points, forces of the drives, and what holds the rest."""
+    """Compute the rows of `Reactions`: points, forces, torques about the points, drive forces, and what is held.
+
+    The wrenches `frictional` of friction act on part 2 of joints, by number.
+    """
     metre, closed = METRES[unit], is_closed_on_branch(status)
     driven = {(joint, k): name for name, joint, k in drive.driven}
     found = balance(linkage, moving.at, moving.displacements, list(driven))
     size, middle = moving.at.scale
 
     def lever(joint: int, k: int) -> Any:
-        """Metres by which a force of the balance makes the load in a coordinate: the size for angles, 1 for lengths."""
+        """Return the load in a coordinate over that of the balance, newtons: the size in metres for angles, else 1."""
         return 1.0 if is_length(linkage.joints[joint].coordinates[k]) else size * metre
 
-    loads = {at: load / lever(*at) for at, load in acts.joints.items()}
-    for joint, wrench in rubs.items():
+    loads = {at: load / lever(*at) for at, load in all_loads.joints.items()}
+    for joint, wrench in frictional.items():
         for k, screw in enumerate(found.screws[joint]):
             loads[joint, k] = loads.get((joint, k), 0.0) + jnp.sum(wrench * screw, axis=0)
     loaded = {at: load for at, load in loads.items() if at not in driven}
-    sent = solve(linkage, found, list(driven), acts.parts, loaded)
+    sent = solve(linkage, found, list(driven), all_loads.parts, loaded)
     drives = {}
     for (joint, k), name in driven.items():
         along = jnp.sum(sent.wrenches[joint] * found.screws[joint][k], axis=0)

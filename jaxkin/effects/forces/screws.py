@@ -18,6 +18,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Float
 
+from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.characteristic_length import centroid_and_length
 from jaxkin.geometry.elementary_motions import ElementaryMotion, amount, displaced_columns, rates
 from jaxkin.geometry.movements import MOVEMENTS, is_length
@@ -33,12 +34,13 @@ Twist = Float[Array, "6 poses"]
 
 
 class Scale(NamedTuple):
-    """Where moments are taken, and the lever arm by which they are divided."""
+    """The point about which moments are taken, and the length by which they are divided."""
 
     size: Float[Array, ""]
-    """Root mean square distance of the joints from their middle, in the unit of the mechanism; 1 where it is zero."""
+    """The characteristic length of all joints, not only those of a loop group, in the unit of the mechanism: their root
+    mean square distance from the middle; 1 where it is zero."""
     middle: Float[Array, "3"]
-    """The middle of the joints in the assembled pose, world coordinates."""
+    """The centroid of the joint frames in the assembled pose, world coordinates."""
 
     @staticmethod
     def of(linkage: Linkage) -> Scale:
@@ -48,11 +50,11 @@ class Scale(NamedTuple):
         return Scale(size, middle)
 
     def arm(self, points: Float[Array, "3 poses"]) -> Float[Array, "3 poses"]:
-        """Vectors from the middle to points of the world, over the size."""
+        """Compute the vectors from the middle to points of the world, over the size."""
         return (points - self.middle[:, None]) / self.size
 
     def of_coordinates(self, joint: Joint) -> list[Any]:
-        """The unit of each coordinate of a joint: the size for lengths, 1 for angles."""
+        """List the unit of each coordinate of a joint: the size for lengths, 1 for angles."""
         return [self.size if is_length(name) else 1.0 for name in joint.coordinates]
 
 
@@ -62,25 +64,22 @@ class Motions(NamedTuple):
     point: Float[Array, "3 poses"]
     """The origin of the last frame, on part 2, from the middle over the size."""
     twists: tuple[Twist, ...]
-    """Unit twist of each, from part 1 to part 2; their coordinates are those of `driven_by`."""
+    """Unit twist of each, from part 1 to part 2; `coordinates_of_motions` lists their coordinates."""
     bends: tuple[dict[int, Twist], ...]
     """Change of each unit twist with the coordinates of its own movement, as a curve or a surface bends, by number of
     the coordinate; empty where it does not change."""
 
     def coordinates(self, joint: Joint) -> list[Twist]:
-        """Unit twists of the coordinates: a coordinate may drive several motions, whose twists add up."""
+        """Add up unit twists by coordinate: a coordinate may be that of several elementary motions."""
         none = jnp.zeros((6, self.point.shape[1]))
-        each = list(zip(driven_by(joint), self.twists, strict=True))
+        each = list(zip(coordinates_of_motions(joint), self.twists, strict=True))
         return [sum((twist for own, twist in each if own == k), none) for k in range(joint.freedoms)]
 
 
-def driven_by(joint: Joint) -> list[int]:
-    """Number of the coordinate of each elementary motion of a joint, from part 1 to part 2."""
-    first, found = 0, []
-    for movement in joint.movements:
-        found += [first + element.coordinate for element in MOVEMENTS[movement].elements]
-        first += len(MOVEMENTS[movement].coordinates)
-    return found
+def coordinates_of_motions(joint: Joint) -> list[int]:
+    """List for each elementary motion of a joint, from part 1 to part 2, the number of its coordinate."""
+    numbered = zip(joint.movements, coordinate_ranges(joint.movements), strict=True)
+    return [own[element.coordinate] for movement, own in numbered for element in MOVEMENTS[movement].elements]
 
 
 class Places(NamedTuple):
@@ -156,7 +155,11 @@ def joint_motions(joint: Joint, q: Float[Array, "poses _"], part_1: Rigid, scale
 
 
 def _twist(frame: Rigid, element: ElementaryMotion, scale: Scale, unit: Any, by_coordinate: tuple[Any, Any]) -> Twist:
-    """Twist of an elementary motion of a frame, from the derivatives of its length and its angle by the coordinate."""
+    """Compute the unit twist of an elementary motion of a frame.
+
+    `by_coordinate` are the derivatives of its length and of its angle with respect to the coordinate, whose unit is
+    `unit`.
+    """
     slides, turns = (each * unit for each in by_coordinate)
     axis = frame[:, element.axis]
     return jnp.concatenate([turns * axis, turns * cross(scale.arm(frame[:, 3]), axis) + slides / scale.size * axis])
@@ -165,25 +168,26 @@ def _twist(frame: Rigid, element: ElementaryMotion, scale: Scale, unit: Any, by_
 def _followed_rates(
     element: ElementaryMotion, spline: FollowedSpline, *q: Float[Array, " poses"]
 ) -> tuple[Array, Array]:
-    """Derivatives of the length and of the angle of a motion along a curve, or over a surface, by its coordinate."""
+    """Differentiate length and angle of a motion along a curve, or over a surface, with respect to its coordinate."""
     slides, turns = rates(element, None, spline.at(*q, xp=jnp))
     return slides * jnp.ones_like(q[0]), turns * jnp.ones_like(q[0])
 
 
 def relative_twist(joint: Joint, own: Motions, rates: Float[Array, "poses _"], scale: Scale) -> Twist:
-    """Twist of part 2 of a joint relative to part 1, for rates of its coordinates in the unit of the mechanism."""
+    """Compute the twist of part 2 of a joint relative to part 1; `rates` are in the unit of the mechanism."""
     units = scale.of_coordinates(joint)
-    terms = (twist * (rates[:, k] / units[k]) for k, twist in zip(driven_by(joint), own.twists, strict=True))
+    motions = zip(coordinates_of_motions(joint), own.twists, strict=True)
+    terms = (twist * (rates[:, k] / units[k]) for k, twist in motions)
     return sum(terms, jnp.zeros((6, rates.shape[0])))
 
 
 def twists_of_parts(
     linkage: Linkage, at: Places, first: Sequence[Array], second: Sequence[Array] | None = None
 ) -> tuple[dict[str, Twist], dict[str, Twist]]:
-    """Twists of all parts that are not fixed, and their derivatives, for rates of all joints, first and second.
+    """Compute the twists of all parts that are not fixed, and their derivatives by time, from rates of all joints.
 
-    Rates are in radians and the unit of the mechanism, (poses, coordinates); without second ones there are no
-    derivatives.
+    `first` and `second` derivatives of the displacements are in radians and the unit of the mechanism, (poses,
+    coordinates); without second ones the twists have no derivatives.
     """
     none = jnp.zeros((6, first[0].shape[0]))
     twists: dict[str, Twist] = {}
@@ -197,7 +201,7 @@ def twists_of_parts(
         here = before if sign > 0 else twists[part]
         units = at.scale.of_coordinates(joint)
         change = none
-        for k, twist, bend in zip(driven_by(joint), own.twists, own.bends, strict=True):
+        for k, twist, bend in zip(coordinates_of_motions(joint), own.twists, own.bends, strict=True):
             rate = first[number][:, k] / units[k]
             change = change + twist * (second[number][:, k] / units[k]) + bracket(here, twist) * rate
             for j, by_j in bend.items():
@@ -208,27 +212,27 @@ def twists_of_parts(
 
 
 def bracket(one: Twist, other: Twist) -> Twist:
-    """The derivative of a twist that is carried by a body with another one: [one, other]."""
+    """Compute the Lie bracket [one, other]: the derivative of `other` while a body with the twist `one` carries it."""
     return jnp.concatenate([cross(one[:3], other[:3]), cross(one[:3], other[3:]) + cross(one[3:], other[:3])])
 
 
 def velocity_at(twist: Twist, arm: Float[Array, "3 _"]) -> Float[Array, "3 poses"]:
-    """Velocity of a point of a body, over the size."""
+    """Compute the velocity of a point of a body, v + w x arm, over the size."""
     return twist[3:] + cross(twist[:3], arm)
 
 
 def cross(one: Float[Array, "3 _"], other: Float[Array, "3 _"]) -> Float[Array, "3 _"]:
-    """The cross product pose by pose; either may have a last axis of one."""
+    """Compute the cross product in each pose; either vector may have a last axis of one."""
     (a, b, c), (x, y, z) = one, other
     return jnp.stack([b * z - c * y, c * x - a * z, a * y - b * x])
 
 
 def turned(rotation: Float[Array, "3 _ _"], vector: Float[Array, "3 ..."]) -> Float[Array, "3 _"]:
-    """Rotate a vector by the first three columns of a matrix, pose by pose."""
+    """Rotate a vector by the first three columns of a matrix, in each pose."""
     return rotation[:, 0] * vector[0] + rotation[:, 1] * vector[1] + rotation[:, 2] * vector[2]
 
 
 def wrench_at(arm: Float[Array, "3 _"], force: Float[Array, "3 _"]) -> Float[Array, "6 _"]:
-    """The wrench of a force, newtons, at a point: torque over the size, force."""
+    """Compute the wrench of a force, newtons, at a point: arm x force, which is the torque over the size, and force."""
     torque = cross(arm, force)
     return jnp.concatenate([torque, jnp.broadcast_to(force, torque.shape)])

@@ -70,7 +70,11 @@ def _placed(driven: tuple[tuple[int, int], ...], linkage: Linkage, displacements
 
 
 def _joint_at(system: Balance, joint: int, free: list[int], pose: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Wrenches that a joint transmits at its point, a basis (6, n); those of its free coordinates; and its lever."""
+    """Decompose the wrenches at the point of a joint in a pose of a `Balance`.
+
+    Returns a basis (6, n) of those that it transmits, the wrench of a unit load in each free coordinate (6, free), and
+    the matrix (6, 6) that refers wrenches at the point to the middle.
+    """
     x, y, z = system.arms[joint][:, pose]
     lever = np.eye(6)
     lever[:3, 3:] = [[0, -z, y], [z, 0, -x], [-y, x, 0]]
@@ -84,7 +88,7 @@ def _joint_at(system: Balance, joint: int, free: list[int], pose: int) -> tuple[
 def _at(
     motion: Motion, system: Balance, driven: tuple[tuple[int, int], ...], pose: int
 ) -> tuple[int, tuple[Undetermined, ...]]:
-    """Number of open reactions at a pose of a `Balance`, and where they are."""
+    """Count the open reactions at a pose of a `Balance`, and tell in which joints they are."""
     linkage = motion.mechanism.linkage
     moving = [part for part in linkage.parts if part not in linkage.fixed]
     columns, owner, bases, levers = [], [], [], []
@@ -125,7 +129,7 @@ def _at(
 def _on_parts(
     parts: tuple[str, str], moving: list[str], wrenches: Float[np.ndarray, "6 _"]
 ) -> Float[np.ndarray, "rows _"]:
-    """Rows of the balance of all moving parts for wrenches of a joint about the middle."""
+    """Write wrenches of a joint about the middle as columns of the balance of all moving parts, six rows a part."""
     rows = np.zeros((6 * len(moving), wrenches.shape[1]))
     for part, sign in zip(parts, (-1.0, 1.0), strict=True):
         if part in moving:

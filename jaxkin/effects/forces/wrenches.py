@@ -60,8 +60,8 @@ class Acting(NamedTuple):
     accelerations: Mapping[str, Any] | None = None
 
 
-class Weights(NamedTuple):
-    """What acts, as numbers that a program is given."""
+class ActingNumbers(NamedTuple):
+    """The numbers of an `Acting` that a program is given: no rates, and no friction, which depends on all else."""
 
     masses: Masses | None
     gravity: Float[Array | np.ndarray, "3"]
@@ -91,7 +91,7 @@ class Moving(NamedTuple):
 
 
 @partial(whole_program, static=(0, 1))
-def acting_on(unit: str, chords: bool, linkage: Linkage, found: Changes, acting: Weights) -> tuple[Moving, Loads]:
+def acting_on(unit: str, chords: bool, linkage: Linkage, found: Changes, acting: ActingNumbers) -> tuple[Moving, Loads]:
     """Place the parts, and find all that acts on them; with `chords`, place all joints and not only those of the tree.
 
     This is a program of its own: XLA would compute parts of the derivatives anew wherever they are used.
@@ -100,7 +100,7 @@ def acting_on(unit: str, chords: bool, linkage: Linkage, found: Changes, acting:
     return moving, loads(linkage, unit, acting, moving)
 
 
-def loads(linkage: Linkage, unit: str, acting: Weights, moving: Moving) -> Loads:
+def loads(linkage: Linkage, unit: str, acting: ActingNumbers, moving: Moving) -> Loads:
     """Find all that acts in each pose, inertia and dampers where the parts move."""
     found: dict[str, Any] = {}
     lever = moving.at.scale.size * METRES[unit]
@@ -120,7 +120,7 @@ def loads(linkage: Linkage, unit: str, acting: Weights, moving: Moving) -> Loads
 
 
 def _of_mass(moving: Moving, masses: Masses, gravity: Any, part: str, lever: Any) -> Wrench:
-    """Weight and inertia of a part: m (g - a) at its centre, -(I w' + w x I w)."""
+    """Compute weight and inertia of a part: the force m (g - a) at its centre, the torque -(I w' + w x I w)."""
     number = masses.parts.index(part)
     mass, arm = masses.mass[number], moving.at.point(part, masses.centre[number])
     force = mass * gravity[:, None]
@@ -131,17 +131,17 @@ def _of_mass(moving: Moving, masses: Masses, gravity: Any, part: str, lever: Any
     acceleration = velocity_at(change, arm) + cross(turning, velocity_at(twist, arm))
     rotation, inertia = moving.at.parts[part][:, :3], masses.inertia[number]
 
-    def carried(vector: Float[Array, "3 poses"]) -> Float[Array, "3 poses"]:
-        """R I R^T times a vector."""
+    def times_inertia(vector: Float[Array, "3 poses"]) -> Float[Array, "3 poses"]:
+        """Multiply a vector by R I R^T."""
         return turned(rotation, turned(inertia[..., None], turned(rotation.swapaxes(0, 1), vector)))
 
-    torque = carried(change[:3]) + cross(turning, carried(turning))
+    torque = times_inertia(change[:3]) + cross(turning, times_inertia(turning))
     wrench = wrench_at(arm, force - mass * lever * acceleration)
     return jnp.concatenate([wrench[:3] - torque / lever, wrench[3:]])
 
 
 def loads_and_frictions(acting: Acting) -> tuple[tuple[Load, ...], tuple[JointFriction, ...]]:
-    """What is applied but for friction, and the friction of joints, which depends on the rest; else ValueError."""
+    """Split what is applied into loads and friction of joints, which depends on the loads; ValueError for all else."""
     given = acting.applied
     applied = (given,) if isinstance(given, Applied) else several(given, "applied", "loads", "[jk.force(...)]")
     for each in applied:
@@ -184,17 +184,17 @@ def check(motion: Motion, acting: Acting) -> None:
         raise ValueError("accelerations were given without rates: write rates={'A': 0.0} for a start from rest")
 
 
-def weights(acting: Acting) -> Weights:
+def acting_numbers(acting: Acting) -> ActingNumbers:
     """Make arrays of what acts; ValueError for a gravity that is no vector."""
     expected = "three finite numbers, m/s^2, as (0, 0, -9.81)"
     gravity = numbers(acting.gravity, "gravity", expected)
     if gravity.shape != (3,) or not (traced(gravity) or np.isfinite(gravity).all()):
         raise ValueError(f"gravity must be {expected}, got {acting.gravity!r}")
-    return Weights(acting.masses, gravity, loads_and_frictions(acting)[0])
+    return ActingNumbers(acting.masses, gravity, loads_and_frictions(acting)[0])
 
 
 def given_rates(motion: Motion, acting: Acting) -> tuple[Inputs, Inputs] | None:
-    """First and second derivatives of all inputs; None at rest; ValueError as `jk.accelerations`."""
+    """Complete first and second derivatives of all inputs; None at rest; ValueError as `jk.accelerations`."""
     if acting.rates is None:
         return None
     return tangents_of(motion, acting.rates), tangents_of(motion, acting.accelerations or {})
@@ -208,13 +208,13 @@ def _name_of(load: Load) -> str:
 
 
 def _rows(values: Any) -> Array:
-    """Numbers of a load with the poses last, or with a last axis of one where they are given once."""
+    """Return numbers of a load, one a pose; (1,) where they are given once."""
     values = jnp.asarray(values, float)
     return values[None] if values.ndim == 0 else values
 
 
 def _vector(values: Any) -> Float[Array, "3 _"]:
-    """A vector of a load with the poses last, or with a last axis of one where it is given once."""
+    """Return a vector of a load, (3, poses); (3, 1) where it is given once."""
     values = jnp.asarray(values, float)
     return values[:, None] if values.ndim == 1 else values.T
 
@@ -257,7 +257,7 @@ def _of_spring(moving: Moving, load: Spring, lever: Any):
 
 
 def _loaded(linkage: Linkage, load: JointLoad) -> tuple[int, int]:
-    """Joint and coordinate of a load; ValueError where it is an angle of a ball."""
+    """Resolve the (joint, coordinate) of a load; ValueError where it is an angle of a ball."""
     joint, index = coordinate(linkage, load.coordinate)
     if any(index in group and len(group) > 1 for group in linkage.joints[joint].driven_together):
         raise ValueError(
@@ -269,7 +269,7 @@ def _loaded(linkage: Linkage, load: JointLoad) -> tuple[int, int]:
 def _in_joint(
     linkage: Linkage, unit: str, moving: Moving, load: JointLoad
 ) -> tuple[tuple[int, int], Float[Array, " poses"]]:
-    """The load in a coordinate: newton metres, newtons."""
+    """Compute a load in a coordinate, newton metres or newtons: load - stiffness (q - rest) - damping q'."""
     joint, index = _loaded(linkage, load)
     metre = metres_of(linkage.joints[joint].coordinates[index], unit)
     given, stiffness, rest, damping = (_rows(x) for x in (load.load, load.stiffness, load.rest, load.damping))
@@ -280,12 +280,12 @@ def _in_joint(
 
 
 def metres_of(coordinate: str, unit: str) -> float:
-    """Metres in the unit of a coordinate of a joint; 1 for angles."""
+    """Look up the metres in the unit of a coordinate of a joint; 1 for angles."""
     return METRES[unit] if is_length(coordinate) else 1.0
 
 
 def units_of(motion: Motion, name: str) -> tuple[str, float]:
-    """Unit of the force along a driven coordinate, and metres in the unit of the coordinate, 1 for radians."""
+    """Look up the unit of the force along a coordinate, and metres in the unit of the coordinate, 1 for radians."""
     return ("N", METRES[motion.mechanism.unit]) if is_length(name.rpartition(".")[2]) else ("N m", 1.0)
 
 

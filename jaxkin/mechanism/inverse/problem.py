@@ -53,7 +53,7 @@ class Problem:
         self.poses = 0 if given is None else len(given)
 
     def column(self, name: str) -> int:
-        """The column of a coordinate by name; ValueError where there is none."""
+        """Look up the column of a coordinate by name; ValueError where there is none."""
         return self.places.index(coordinate(self.linkage, name))
 
     def turned_back(

@@ -14,6 +14,7 @@ from jaxtyping import Array, Float
 
 from jaxkin._traced import traced
 from jaxkin.geometry.trig import TURN
+from jaxkin.solve.closure.planar import squared_off_plane
 from jaxkin.solve.system.chain_tables import AXES, chain_tables
 from jaxkin.solve.system.joints import Joints, scaled_frames
 from jaxkin.solve.system.loop_system import LoopSystem
@@ -71,15 +72,14 @@ def assembled_axes(system: LoopSystem, joints: Joints) -> Axes:
     turns = moves & (table.turn > 0)
     row, chain = np.argwhere(turns)[0]
     plane, normal = found[row, chain, :3, :2].T, direction[row, chain]
-    facing = direction @ normal
-    tilt = xp.where(turns, xp.sum(xp.cross(direction, normal) ** 2, axis=-1), facing**2)
-    off = xp.sum(xp.where(moves, tilt, 0.0)) + xp.sum((turn @ normal - normal) ** 2) + xp.sum((shift @ normal) ** 2)
-    sense = xp.where(turns, sense * xp.sign(facing), sense)
+    off_plane = squared_off_plane(direction, turns, moves, normal, turn, shift, xp)
+    sense = xp.where(turns, sense * xp.sign(direction @ normal), sense)
     flat = xp.einsum("ai,cij,bj->cab", plane, turn, plane)
-    return Axes(direction @ plane.T, point @ plane.T, sense, advance, flat, shift @ plane.T, off, length)
+    return Axes(direction @ plane.T, point @ plane.T, sense, advance, flat, shift @ plane.T, off_plane, length)
 
 
 def _inverse(poses: Poses, xp: Any) -> Poses:
+    """Invert rigid poses."""
     turned = xp.swapaxes(poses[:, :3, :3], 1, 2)
     moved = -xp.einsum("cij,cj->ci", turned, poses[:, :3, 3])
     return xp.concatenate([xp.concatenate([turned, moved[..., None]], axis=-1), poses[:, 3:, :]], axis=-2)

@@ -128,6 +128,7 @@ class _Bounds(NamedTuple):
 
 
 def _bounds(f: Float[Numbers, " nodes"]) -> _Bounds:
+    """Bound a discriminant between neighbouring nodes by its differences."""
     xp = namespace(f)
     one, other, change = f[:-1], f[1:], f[1:] - f[:-1]
     second = change[1:] - change[:-1]

@@ -30,7 +30,7 @@ def planar_place(system: LoopSystem, axes: Axes, row: int, chain: int) -> Comple
 def planar_product(
     system: LoopSystem, axes: Axes, chain: int, rows: Sequence[int], x: Coordinates
 ) -> PlanarDisplacement:
-    """Multiply the motions of some rows."""
+    """Multiply the motions of some rows of a chain at the coordinates `x`."""
     table = chain_tables(system)
     zero, one = np.zeros(1), np.ones(1)
     product = None
@@ -51,7 +51,7 @@ def planar_rest(axes: Axes, chain: int) -> PlanarDisplacement:
     return PlanarDisplacement(Complex(cos, sin), Complex(*axes.open_shift[chain]))
 
 
-def carried(
+def displace(
     system: LoopSystem,
     axes: Axes,
     chain: int,
@@ -62,7 +62,7 @@ def carried(
     inverse: bool = False,
     free: bool = False,
 ) -> Vector:
-    """Carry a point by the product of the motions of some rows, or by its inverse; a `free` vector is only turned."""
+    """Displace a point by the product of the motions of some rows, or its inverse; a `free` vector is only turned."""
     table = chain_tables(system)
     for row in rows if inverse else reversed(rows):
         axis, centre = axes.direction[row, chain, :, None], axes.centre[row, chain, :, None]
@@ -78,6 +78,7 @@ def carried(
 
 
 def _known(x: Coordinates, column: int) -> Coordinate:
+    """Look up the coordinate of a column; ValueError where it is not solved yet."""
     found = x[column]
     if found is None:
         raise ValueError(f"column {column} is not known yet: the groups must be in the order of solution")

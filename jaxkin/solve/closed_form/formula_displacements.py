@@ -15,7 +15,7 @@ from jaxkin.solve.closed_form.planar_derivative import planar_slopes
 from jaxkin.solve.closed_form.range_by_formula import FormulaPoses, scaled_inputs
 from jaxkin.solve.closed_form.solve_groups import solve_groups
 from jaxkin.solve.closure.closure import scaled_geometry
-from jaxkin.solve.closure.joint_coordinates import ball_turns, joint_coordinates, unwrap_ball_angles
+from jaxkin.solve.closure.joint_coordinates import ball_rotations, joint_coordinates, unwrap_ball_angles
 from jaxkin.solve.range.groups import in_groups
 from jaxkin.solve.status import Status, closes_before_limits
 from jaxkin.solve.system.joints import Joints
@@ -102,6 +102,6 @@ def joint_displacements(
         return displaced
     geometry, _ = scaled_geometry(system, joints)
     x = jnp.stack(list(rows))
-    turns = ball_turns(system, geometry, State(x, jnp.zeros((0, 4, x.shape[1]), x.dtype)))
-    found = joint_coordinates(system, joints.frames_1, joints.frames_2, displaced, turns)
+    rotations = ball_rotations(system, geometry, State(x, jnp.zeros((0, 4, x.shape[1]), x.dtype)))
+    found = joint_coordinates(system, joints.frames_1, joints.frames_2, displaced, rotations)
     return unwrap_ball_angles(system, found)

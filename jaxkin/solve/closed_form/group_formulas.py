@@ -51,6 +51,7 @@ def why_not_all(system: LoopSystem) -> str | None:
 
 
 def _formula(system: LoopSystem, loops: tuple[int, ...], block: EquationBlock) -> GroupFormula | str:
+    """Find the formula of a group, given the numbers of its loops and couplings; or say why there is none."""
     if any(number >= len(system.loops) for number in loops):
         return "a coupling"
     loop, *others = loops

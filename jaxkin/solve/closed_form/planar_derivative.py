@@ -156,4 +156,5 @@ def _beside(screw: _Screw, pivot: Complex) -> Complex:
 
 
 def _cross(one: Complex, other: Complex) -> Number:
+    """Compute the cross product of two vectors of the plane."""
     return one.real * other.imag - one.imag * other.real

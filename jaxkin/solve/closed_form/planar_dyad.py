@@ -187,4 +187,5 @@ def _to_line(two: _Link, three: _Link) -> Complex:
 
 
 def _cross(one: Complex, other: Complex) -> Number:
+    """Compute the cross product of two vectors of the plane."""
     return one.real * other.imag - one.imag * other.real

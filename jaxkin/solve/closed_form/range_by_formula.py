@@ -163,6 +163,7 @@ class _AtNodes(NamedTuple):
 
 
 def _at_nodes(system: LoopSystem, windings: Windings, values: Float[Array, " poses"]) -> _AtNodes:
+    """Find where inputs are among the nodes of a line, and look up the unknown angles there."""
     turns = jnp.floor(values / TURN) if system.periodic else jnp.zeros_like(values)
     position = (values - TURN * turns - windings.begin) / windings.spacing
     interval = jnp.clip(jnp.floor(position), 0, NODES - 2)

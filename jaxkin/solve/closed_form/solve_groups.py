@@ -14,7 +14,7 @@ from jaxkin.solve.closed_form import planar_dyad, rod, spherical_triangle
 from jaxkin.solve.closed_form.arithmetic import Number, namespace
 from jaxkin.solve.closed_form.assembled_axes import Axes
 from jaxkin.solve.closed_form.chain_motions import (
-    carried,
+    displace,
     moving_rows,
     planar_place,
     planar_product,
@@ -85,6 +85,7 @@ def solve_once(
 
 
 def _formulas(system: LoopSystem) -> list[GroupFormula]:
+    """List the formulas of all groups; ValueError where a group has none."""
     found = [formula for formula in group_formulas(system) if isinstance(formula, GroupFormula)]
     if len(found) < len(group_formulas(system)):
         raise ValueError(f"a group has no formula: {group_formulas(system)}")
@@ -111,6 +112,7 @@ def _solve(
 
 
 def _signed_root(system: LoopSystem, axes: Axes, formula: GroupFormula, rest: Coordinates) -> Number:
+    """Compute the signed root of the discriminant of a group, whose unknowns are zero, at the coordinates `rest`."""
     if formula.name == "planar dyad":
         return planar_dyad.signed_root(formula.letters, *_planar(system, axes, formula, rest))
     if formula.name == "spherical triangle":
@@ -142,7 +144,7 @@ def _spherical(system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordin
 
     def rotated(begin: int, end: int | None, columns: Array | np.ndarray):
         rows = moving_rows(system, chain, begin, end)
-        turned = [carried(system, axes, chain, rows, x, column[:, None], free=True) for column in columns]
+        turned = [displace(system, axes, chain, rows, x, column[:, None], free=True) for column in columns]
         xp = namespace(*turned)
         return xp.stack(xp.broadcast_arrays(*turned), axis=1)
 
@@ -164,14 +166,14 @@ def _rod(system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordinates):
     """
     chain, (row,) = formula.chain, formula.rows
     origin = np.zeros((3, 1))
-    near = carried(system, axes, chain, moving_rows(system, chain, 0, row), x, origin, inverse=True)
+    near = displace(system, axes, chain, moving_rows(system, chain, 0, row), x, origin, inverse=True)
     behind = moving_rows(system, chain, row + 1)
-    far = carried(system, axes, chain, behind, x, axes.open_shift[chain, :, None])
+    far = displace(system, axes, chain, behind, x, axes.open_shift[chain, :, None])
     other = formula.other_chain
     if other is None:
         raise ValueError(f"the loop of {formula} is not cut at a rod")
     rod_rows = moving_rows(system, other)
-    end = carried(system, axes, other, rod_rows, x, axes.open_shift[other, :, None])
+    end = displace(system, axes, other, rod_rows, x, axes.open_shift[other, :, None])
     return near, far, namespace(end).sqrt(spherical_triangle.dot(end, end))
 
 
@@ -207,11 +209,11 @@ def residual_norm(system: LoopSystem, axes: Axes, rows: Coordinates) -> Float[Ar
         end = _end(system, axes, chain, rows)
         square = square + spherical_triangle.dot(end, end)
         for column, unit in zip(axes.open_turn[chain].T, np.eye(3), strict=True):
-            left = carried(system, axes, chain, moving, rows, column[:, None], free=True) - unit[:, None]
+            left = displace(system, axes, chain, moving, rows, column[:, None], free=True) - unit[:, None]
             square = square + spherical_triangle.dot(left, left)
     return xp.sqrt(square)
 
 
 def _end(system: LoopSystem, axes: Axes, chain: int, x: Coordinates):
     """Find where a chain ends, (3, poses)."""
-    return carried(system, axes, chain, moving_rows(system, chain), x, axes.open_shift[chain, :, None])
+    return displace(system, axes, chain, moving_rows(system, chain), x, axes.open_shift[chain, :, None])

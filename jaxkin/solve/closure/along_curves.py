@@ -11,22 +11,22 @@ from jaxtyping import Array, Float
 from jaxkin.geometry.elementary_motions import law_length, law_rate, law_turn
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.patches import FollowedSpline
-from jaxkin.solve.system.chain_tables import LAWS, way_tables
+from jaxkin.solve.system.chain_tables import LAWS, distinct_tables
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State
 
 
 def along_curves(
     system: LoopSystem, curves: Sequence[FollowedSpline], state: State, amounts: tuple[Array, Array, Array]
-) -> tuple[Array, Array, Array, Float[Array, "steps ways poses"]]:
+) -> tuple[Array, Array, Array, Float[Array, "steps distinct poses"]]:
     """Replace cosine, sine and travel of the steps that follow a curve or a surface by those at its parameters.
 
-    `amounts` are those three, each (steps, ways, poses); `curves` are those of `LoopSystem.curves`.
+    `amounts` are those three, each (steps, distinct, poses); `curves` are those of `LoopSystem.curves`.
 
     Also computes the derivative of the angle or length of every step with respect to its coordinate: 1 where nothing
     is followed.
     """
-    table = way_tables(system)
+    table = distinct_tables(system)
     cos, sin, travel = amounts
     rates = jnp.ones_like(travel)
     for number, ((joint, frame), curve) in enumerate(zip(system.curves, curves, strict=True)):

@@ -52,20 +52,22 @@ class Closure(NamedTuple):
 
 def closure(system: LoopSystem, geometry: Geometry, state: State) -> Closure:
     """Evaluate residual, Jacobian and norms of all loops at a state, lengths over the characteristic length."""
-    poses, off = state.x.shape[-1], 0.0
+    poses, off_plane = state.x.shape[-1], 0.0
     if not system.loops:  # couplings of joints in no loop
-        residual, rotated, moved = jnp.zeros((0, poses)), jnp.zeros(poses), jnp.zeros(poses)
+        residual, of_rotation, of_rest = jnp.zeros((0, poses)), jnp.zeros(poses), jnp.zeros(poses)
         jacobian = jnp.zeros((0, system.columns, poses))
     elif isinstance(geometry.loops, Planar):
-        residual, jacobian, rotated, moved = planar_closure(system, geometry.loops, state.x)
-        off = geometry.loops.off
+        residual, jacobian, of_rotation, of_rest = planar_closure(system, geometry.loops, state.x)
+        off_plane = geometry.loops.off_plane
     else:
-        residual, jacobian, rotated, moved = spatial_closure(system, geometry.loops, state)
+        residual, jacobian, of_rotation, of_rest = spatial_closure(system, geometry.loops, state)
     if system.couplings:
-        misfit, slopes = coupling_closure(system, geometry.couplings, state.x)
-        residual, jacobian = jnp.concatenate([residual, misfit]), jnp.concatenate([jacobian, slopes])
-        moved = moved + jnp.sum(misfit**2, axis=0)
-    return Closure(residual, jacobian, 0.5 * (0.5 * rotated + moved), jnp.sqrt(rotated + moved + off))
+        of_couplings, slopes = coupling_closure(system, geometry.couplings, state.x)
+        residual, jacobian = jnp.concatenate([residual, of_couplings]), jnp.concatenate([jacobian, slopes])
+        of_rest = of_rest + jnp.sum(of_couplings**2, axis=0)
+    # squares of Eq. 12: those of rotation entries, and those of translations and couplings
+    merit, square = 0.5 * (0.5 * of_rotation + of_rest), of_rotation + of_rest + off_plane
+    return Closure(residual, jacobian, merit, jnp.sqrt(square))
 
 
 def loop_geometry(

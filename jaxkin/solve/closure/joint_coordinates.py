@@ -15,7 +15,7 @@ from jaxtyping import Array, Float
 
 from jaxkin.solve.closure.closure import Geometry
 from jaxkin.solve.closure.rod_spin import remove_spin_from_rotations, remove_spin_from_state
-from jaxkin.solve.closure.spatial import cut_turns
+from jaxkin.solve.closure.spatial import cut_rotations
 from jaxkin.solve.closure.spatial_geometry import Spatial
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import Coordinates, Rotations, State, angles, from_angles, matrix, multiply, turning
@@ -24,56 +24,57 @@ Frames = tuple[Float[Array, "_ 4 4"], ...]
 """For each joint its frames on one of its parts, as `frames_1` or `frames_2` of `Joint`."""
 
 
-def ball_turns(system: LoopSystem, geometry: Geometry, state: State) -> dict[int, Rotations]:
+def ball_rotations(system: LoopSystem, geometry: Geometry, state: State) -> dict[int, Rotations]:
     """Compute the rotation matrices of all balls, by number, without the idle spins of rods.
 
     A ball at which a loop is cut gets the rotation that closes the loop.
     """
-    turns = _all_turns(system, geometry, state)
+    rotations = _all_rotations(system, geometry, state)
     if not isinstance(geometry.loops, Spatial):
-        return turns
-    return remove_spin_from_rotations(system, geometry.loops.lines, turns)
+        return rotations
+    return remove_spin_from_rotations(system, geometry.loops.lines, rotations)
 
 
 def remove_idle_spin(system: LoopSystem, geometry: Geometry, state: State) -> State:
     """Remove the idle spins of all rods: the result is a smooth function of the input, unlike the solver's state."""
     if not isinstance(geometry.loops, Spatial) or not system.spinning:
         return state
-    return remove_spin_from_state(system, geometry.loops.lines, _all_turns(system, geometry, state), state)
+    return remove_spin_from_state(system, geometry.loops.lines, _all_rotations(system, geometry, state), state)
 
 
-def _all_turns(system: LoopSystem, geometry: Geometry, state: State) -> dict[int, Rotations]:
+def _all_rotations(system: LoopSystem, geometry: Geometry, state: State) -> dict[int, Rotations]:
     """Compute the rotation matrices of all balls, by number, with the idle spins of rods."""
-    rotations = matrix(jnp.moveaxis(state.turns, 1, 0))
-    turns = {ball: rotations[:, :, number] for number, ball in enumerate(system.turned_balls)}
-    return turns | cut_turns(system, geometry.loops, state) if isinstance(geometry.loops, Spatial) else turns
+    matrices = matrix(jnp.moveaxis(state.turns, 1, 0))
+    uncut = {ball: matrices[:, :, number] for number, ball in enumerate(system.turned_balls)}
+    return uncut | cut_rotations(system, geometry.loops, state) if isinstance(geometry.loops, Spatial) else uncut
 
 
 def joint_coordinates(
-    system: LoopSystem, frames_1: Frames, frames_2: Frames, x: Coordinates, turns: dict[int, Rotations]
+    system: LoopSystem, frames_1: Frames, frames_2: Frames, x: Coordinates, rotations: dict[int, Rotations]
 ) -> Coordinates:
     """Compute the coordinates of all joints: `x`, with the entries of balls replaced by the angles of their rotations.
 
-    `x` is in radians and in the unit of the frames; `turns` holds the rotation of each ball, by number.
+    `x` is in radians and in the unit of the frames; `rotations` holds the rotation of each ball, by number.
     """
-    turns = dict(turns)
+    rotations = dict(rotations)
     pairs = []
     for (joint, frame), (ball, columns) in reversed(system.places.items()):  # pairs that lock stand last
         if columns[0] in system.driven:
             continue
         if len(columns) == 2:
             behind, _ = system.places[joint, frame + 1]
-            found, turns[behind] = _line(_between(frames_1[joint], frames_2[joint], frame), turns[ball], turns[behind])
+            between = _between(frames_1[joint], frames_2[joint], frame)
+            found, rotations[behind] = _line(between, rotations[ball], rotations[behind])
         elif columns == tuple(range(columns[0], columns[0] + 3)):
             pairs.append((ball, columns))
             continue
         else:
             first = columns[2] - 2
-            found, moved = _on_plane(_between(frames_1[joint], frames_2[joint], frame - 1), turns[ball])
+            found, moved = _on_plane(_between(frames_1[joint], frames_2[joint], frame - 1), rotations[ball])
             x = x.at[first : first + 2].add(moved)
         x = x.at[np.array(columns)].set(found, unique_indices=True)
     if pairs:
-        found = angles(jnp.stack([turns[ball] for ball, _ in pairs], axis=2))
+        found = angles(jnp.stack([rotations[ball] for ball, _ in pairs], axis=2))
         x = x.at[np.array([columns for _, columns in pairs]).T].set(found, unique_indices=True)
     return x
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 from functools import lru_cache, reduce
 from itertools import accumulate
 from operator import add
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import jax.numpy as jnp
 import numpy as np
@@ -32,6 +32,9 @@ MAX_UNROLLED_SUM_TERMS = 32
 """Largest number of terms of a sum that is written out: compile time grows with the number."""
 
 
+Numbers = Array | np.ndarray
+
+
 class Planar(NamedTuple):
     """Constants of the loops in the plane, lengths divided by the characteristic length.
 
@@ -45,9 +48,9 @@ class Planar(NamedTuple):
     """Coefficients of the terms in the end point of the loop: the links from joint to joint in the assembled pose."""
     jacobian: Float[Array, "loops rows terms"]
     """Coefficients of the terms in the derivatives of rotation and both translations with respect to all columns."""
-    begun: Float[Array, "2 loops"]
+    open_turn: Float[Array, "2 loops"]
     """Cosine and sine of the rotation that is left open in the assembled pose: 1 and 0 unless lengths were changed."""
-    off: Float[Array, ""]
+    off_plane: Float[Array, ""]
     """Squared residual out of the plane (Eq. 12), which no motion in the plane can close."""
 
 
@@ -61,15 +64,15 @@ def planar_closure(
     """
     poses = x.shape[-1]
     padded = jnp.concatenate([x, jnp.zeros_like(x[:1])])
-    both = cos_sin(_sums(geometry.sense[..., None] * padded[_kept(system).turner.T]))
+    both = cos_sin(_sums(geometry.sense[..., None] * padded[_plane_motions(system).turner.T]))
     terms = [*both, jnp.ones_like(both[0, :, :1])]
     if _slides(system):
-        terms[2:2] = list(padded[_kept(system).slider.T] * both)
+        terms[2:2] = list(padded[_plane_motions(system).slider.T] * both)
     moved = _moved(geometry, terms)
     cos, sin = both[:, :, -1]
-    begun_cos, begun_sin = geometry.begun[..., None]
-    rest_cos = cos * begun_cos - sin * begun_sin
-    rest_sin = sin * begun_cos + cos * begun_sin
+    open_cos, open_sin = geometry.open_turn[..., None]
+    rest_cos = cos * open_cos - sin * open_sin
+    rest_sin = sin * open_cos + cos * open_sin
     # a rotation in the plane changes four of the nine entries; 2 - 2 cos would lose digits by cancellation
     rotated = 2 * reduce(add, (rest_cos - 1) ** 2 + rest_sin**2)
     if _unrolled(terms):
@@ -106,7 +109,7 @@ def _along_links(
     A coordinate by which a link turns moves the vector from the link to the end of the loop at right angles to it; one
     by which a link slides moves the end along the direction of the link.
     """
-    kept, (cos, sin) = _kept(system), terms[:2]
+    kept, (cos, sin) = _plane_motions(system), terms[:2]
     links, none = cos.shape[1], jnp.zeros_like(cos[0, 0])
     found = []
     for loop in range(len(cos)):
@@ -130,7 +133,7 @@ def _along_links(
 
 def planar_geometry(system: LoopSystem, space: Spatial) -> Planar:
     """Compute the constants in the plane from those in space; the normal is the axis of the first rotation."""
-    table, kept = chain_tables(system), _kept(system)
+    table, kept = chain_tables(system), _plane_motions(system)
     loops = np.arange(len(system.loops))
 
     def onward(pose: Array, between: Array) -> tuple[Array, Array]:
@@ -161,12 +164,24 @@ def planar_geometry(system: LoopSystem, space: Spatial) -> Planar:
     links = (jnp.concatenate([centre[:, 1:], arrival[:, None]], axis=1) - centre).swapaxes(1, 2)
     direction = jnp.einsum("di,kli->dlk", plane, axis) * (sign * jnp.asarray((1 - turning) * used)).T
 
-    tilt = jnp.where(turning, jnp.sum(jnp.cross(axis, normal) ** 2, axis=-1), (axis @ normal) ** 2)
-    leaning = last[:, :3, :3] @ normal - normal
-    off = jnp.sum(jnp.where(used_, tilt, 0.0)) + jnp.sum(leaning**2) + jnp.sum((last[:, :3, 3] @ normal) ** 2)
-    begun = jnp.einsum("i,lij,dj->dl", plane[0], last[:, :3, :3], plane * jnp.array([1.0, -1.0])[:, None])
+    off_plane = squared_off_plane(axis, turning, used_, normal, last[:, :3, :3], last[:, :3, 3])
+    open_turn = jnp.einsum("i,lij,dj->dl", plane[0], last[:, :3, :3], plane * jnp.array([1.0, -1.0])[:, None])
     moved, jacobian = _by_terms(system, turns, links, direction, one_hot.swapaxes(0, 1), centre[:, 0])
-    return Planar(sense, moved, jacobian, begun, off)
+    return Planar(sense, moved, jacobian, open_turn, off_plane)
+
+
+def squared_off_plane(
+    axis: Numbers, turning: Numbers, moves: Numbers, normal: Numbers, rotation: Numbers, shift: Numbers, xp: Any = jnp
+) -> Any:
+    """Compute the squared residual of planar loops out of their plane (Eq. 12), which no motion in the plane can close.
+
+    `axis` (rows, loops, 3) are the axes of the elementary motions in the assembled pose: of those that `moves` counts,
+    the `turning` ones should be parallel to the `normal`, and the others perpendicular. `rotation` (loops, 3, 3) and
+    `shift` (loops, 3) are left open there. `xp` is jax.numpy or numpy.
+    """
+    tilt = xp.where(turning, xp.sum(xp.cross(axis, normal) ** 2, axis=-1), (axis @ normal) ** 2)
+    leaning = rotation @ normal - normal
+    return xp.sum(xp.where(moves, tilt, 0.0)) + xp.sum(leaning**2) + xp.sum((shift @ normal) ** 2)
 
 
 def _by_terms(
@@ -216,7 +231,7 @@ def _slides(system: LoopSystem) -> bool:
     return any(system.is_length)
 
 
-class _Kept(NamedTuple):
+class _PlaneMotions(NamedTuple):
     """The elementary motions of each loop that act in the plane."""
 
     step: np.ndarray
@@ -230,7 +245,7 @@ class _Kept(NamedTuple):
 
 
 @lru_cache(maxsize=256)
-def _kept(system: LoopSystem) -> _Kept:
+def _plane_motions(system: LoopSystem) -> _PlaneMotions:
     """Select the elementary motions that act in the plane from the tables of the system."""
     table = chain_tables(system)
     inside = table.column < system.columns
@@ -244,4 +259,4 @@ def _kept(system: LoopSystem) -> _Kept:
     turner, slider = (
         np.where(used & (kind[at] > 0), table.column[at], system.columns) for kind in (table.turn, table.slide)
     )
-    return _Kept(number, turner, slider, (int(step), int(loop)))
+    return _PlaneMotions(number, turner, slider, (int(step), int(loop)))

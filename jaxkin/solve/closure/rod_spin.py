@@ -43,14 +43,14 @@ def spin_lines(system: LoopSystem, frames: Float[Array, "frames 4 4"]) -> Lines:
 
 
 def _spins(
-    system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations]
+    system: LoopSystem, lines: Lines, rotations: Mapping[int, Rotations]
 ) -> tuple[list[tuple[int, int]], Float[Array, "4 ends poses"]]:
     """Compute (number, side) of both balls of each rod, and for each of these the quaternion that removes the spin."""
     ends = [(ball, side) for one, other, *sides in system.spins for ball, side in zip((one, other), sides, strict=True)]
-    turn = jnp.stack([turns[ball] for ball, _ in ends], axis=2)
+    rotation = jnp.stack([rotations[ball] for ball, _ in ends], axis=2)
     n = lines.reshape(-1, 3).T[..., None]
-    along = reduce(add, (n[i] * each for i, each in enumerate(vee(turn))))
-    aside = [turn[i, i] - n[i] * reduce(add, (turn[i, j] * n[j] for j in range(3))) for i in range(3)]
+    along = reduce(add, (n[i] * each for i, each in enumerate(vee(rotation))))
+    aside = [rotation[i, i] - n[i] * reduce(add, (rotation[i, j] * n[j] for j in range(3))) for i in range(3)]
     a, b = (each[::2] + each[1::2] for each in (along, 0.5 * reduce(add, aside)))
     undefined = a * a + b * b < 1e-30  # both balls are rotated by half a turn about an axis at right angles to the line
     phi = -jnp.arctan2(jnp.where(undefined, 0.0, a), jnp.where(undefined, 1.0, b))
@@ -59,24 +59,24 @@ def _spins(
 
 
 def remove_spin_from_rotations(
-    system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations]
+    system: LoopSystem, lines: Lines, rotations: Mapping[int, Rotations]
 ) -> dict[int, Rotations]:
     """Remove the spin of all rods from the rotation matrices of the balls, by number."""
-    turns = dict(turns)
+    rotations = dict(rotations)
     if not system.spins:
-        return turns
-    ends, spins = _spins(system, lines, turns)
-    rotations = matrix(spins)
+        return rotations
+    ends, spins = _spins(system, lines, rotations)
+    removing = matrix(spins)
     for number, (ball, side) in enumerate(ends):
-        one, other = (turns[ball], rotations[:, :, number])[::side]
-        turns[ball] = reduce(add, (one[:, j, None] * other[None, j] for j in range(3)))
-    return turns
+        one, other = (rotations[ball], removing[:, :, number])[::side]
+        rotations[ball] = reduce(add, (one[:, j, None] * other[None, j] for j in range(3)))
+    return rotations
 
 
-def remove_spin_from_state(system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations], state: State) -> State:
-    """Remove the spin of all rods, at least one, from a state; `turns` are the rotation matrices of all its balls."""
+def remove_spin_from_state(system: LoopSystem, lines: Lines, rotations: Mapping[int, Rotations], state: State) -> State:
+    """Remove the spin of all rods, at least one, from a state; `rotations` are the matrices of all its balls."""
     quaternions = dict(zip(system.turned_balls, state.turns, strict=True))
-    ends, spins = _spins(system, lines, turns)
+    ends, spins = _spins(system, lines, rotations)
     for number, (ball, side) in enumerate(ends):
         if ball in quaternions:
             quaternions[ball] = multiply(*(quaternions[ball], spins[:, number])[::side])

@@ -8,7 +8,7 @@ at half a turn; the residual norm is therefore over all twelve. Some loops need 
 
 - A loop that is cut at a ball begins behind the ball and ends before it. It keeps `t = 0`; the ball takes up any `R`.
 - A loop that is cut at both balls of a rod is two chains from ball to ball, which must have equal lengths `|t|`. Chains
-  of several loops that go the same way are computed once: all legs of a platform are closed through one of them.
+  of several loops with the same motions are computed once: all legs of a platform are closed through one of them.
 - In a loop that turns about one direction only, `vee` is along that direction: its component there is one equation.
 - In a loop that turns about one point, the rotation implies the translation: see `_about_points`.
 
@@ -28,7 +28,7 @@ from jaxkin.geometry.trig import cos_sin
 from jaxkin.solve.closure.along_curves import along_curves
 from jaxkin.solve.closure.rod_spin import lengths, turn_between, vee
 from jaxkin.solve.closure.spatial_geometry import Spatial
-from jaxkin.solve.system.chain_tables import ChainTables, chain_tables, way_tables
+from jaxkin.solve.system.chain_tables import ChainTables, chain_tables, distinct_tables
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.scatter import scatter_rows
 from jaxkin.solve.system.state import State, rotation_matrix
@@ -124,7 +124,7 @@ def _of_rods(
     return length[first] - length[second], (one - other)[:, :, None]
 
 
-def cut_turns(system: LoopSystem, geometry: Spatial, state: State) -> dict[int, Float[Array, "3 3 poses"]]:
+def cut_rotations(system: LoopSystem, geometry: Spatial, state: State) -> dict[int, Float[Array, "3 3 poses"]]:
     """Compute for each ball at which a loop is cut the rotation, [row, column], that closes the loop, by ball number.
 
     The spin of a rod that is cut at both balls is arbitrary.
@@ -155,18 +155,19 @@ def _travel(
 ) -> tuple[Float[Array, "3 3 chains poses"], Float[Array, "3 chains poses"], Float[Array, "twists 6 chains poses"]]:
     """Compute rotation [column, row] and translation of the ends of the chains, and the twist of the end by each step.
 
-    Each way is travelled once, for all its chains. Rotations, translations and twists are in the axes in which the way
-    begins; translations are from the begin of each chain. Twists are numbered as in `ChainTables.source`, with a zero
-    twist behind the last one. The first twist of a coordinate that drives several steps is the sum of theirs.
+    Each of the distinct chains is travelled once, for all chains with the same rows. Rotations, translations and twists
+    are in the axes in which the distinct chain begins; translations are from the begin of each chain. Twists are
+    numbered as in `ChainTables.source`, with a zero twist behind the last one. The first twist of a coordinate that
+    drives several steps is the sum of theirs.
     """
-    table, poses, dtype = way_tables(system), state.x.shape[-1], state.x.dtype
+    table, poses, dtype = distinct_tables(system), state.x.shape[-1], state.x.dtype
     turn, advance, screw, sign, side = (
         np.asarray(entry, dtype)[..., None]
         for entry in (table.turn, table.slide, table.screw, table.sign, table.sign * table.side)
     )
     if screw.any():
         advance = advance + screw * geometry.pitch[table.joint][..., None] / (2 * np.pi)
-    # once a coordinate, and not for each way that it is in
+    # once a coordinate, and not for each chain that it is in
     turning, place = np.unique(np.where(table.turn > 0, table.column, system.columns), return_inverse=True)
     place = place.reshape(table.turn.shape)
     x = jnp.concatenate([state.x, jnp.zeros((1, poses), dtype)])
@@ -188,17 +189,17 @@ def _travel(
         axes = rotation[2][None] if ball is None else jnp.where(first_side > 0, rotation, turned)
         return (turned, point + travel * rotation[2]), (rotation[2], axes, point)
 
-    ways = len(table.ways)
-    first = jnp.broadcast_to(np.eye(3, dtype=dtype)[..., None, None], (3, 3, ways, poses))
-    start = first, jnp.zeros((3, ways, poses), dtype)
+    count = len(table.distinct)
+    first = jnp.broadcast_to(np.eye(3, dtype=dtype)[..., None, None], (3, 3, count, poses))
+    start = first, jnp.zeros((3, count, poses), dtype)
     (rotation, point), (along, axes, points) = lax.scan(step, start, (geometry.between, cos, sin, travel, side, balls))
-    shared = ways < len(table.way)
+    shared = count < len(table.same_rows_as)
     if shared:
         rotation, point, along, axes, points = (
-            each[..., table.way, :] for each in (rotation, point, along, axes, points)
+            each[..., table.same_rows_as, :] for each in (rotation, point, along, axes, points)
         )
-        sign, turn, advance = (each[:, table.way] for each in (sign, turn, advance))
-        rates = None if rates is None else rates[:, table.way]
+        sign, turn, advance = (each[:, table.same_rows_as] for each in (sign, turn, advance))
+        rates = None if rates is None else rates[:, table.same_rows_as]
     rotation, translation = _compose(rotation, point, geometry.end)
 
     lever = translation - points
@@ -227,13 +228,13 @@ def _from_own_begin(
     translation: Float[Array, "3 chains poses"],
 ) -> tuple[Float[Array, "3 3 chains poses"], Float[Array, "3 chains poses"]]:
     """Express rotation [column, row] and translation of the ends of the chains in the axes of their own begins."""
-    if len(table.ways) == len(table.way):
+    if len(table.distinct) == len(table.same_rows_as):
         return rotation, translation
     axes = jnp.moveaxis(geometry.begin[:, :3, :3], 0, 2)[..., None]
     return jnp.sum(axes * rotation[:, :, None], axis=1), jnp.sum(axes * translation[:, None], axis=0)
 
 
-def _ball_turns(state: State, table: ChainTables) -> Float[Array, "steps 3 3 ways poses"]:
+def _ball_turns(state: State, table: ChainTables) -> Float[Array, "steps 3 3 distinct poses"]:
     """Compute the rotation matrix [column, row] of each step that is a ball; the identity for all other steps."""
     poses = state.x.shape[-1]
     still = jnp.broadcast_to(jnp.array([1.0, 0.0, 0.0, 0.0], state.x.dtype)[:, None], (1, 4, poses))

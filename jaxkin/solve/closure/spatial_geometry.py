@@ -17,10 +17,10 @@ from jaxkin.solve.system.loop_system import LoopSystem
 class Spatial(NamedTuple):
     """Constants of the loops, lengths divided by the characteristic length, in frames about the centroid."""
 
-    between: Float[Array, "steps ways 4 4"]
+    between: Float[Array, "steps distinct 4 4"]
     """The constant pose of the frame of each step relative to the frame behind the step before."""
     begin: Float[Array, "chains 4 4"]
-    """The constant pose of the begin of the chain relative to that of the first chain of its way."""
+    """The constant pose of the begin of the chain relative to that of the distinct chain with the same rows."""
     end: Float[Array, "chains 4 4"]
     """The constant pose of the end of the chain relative to the frame behind its last step."""
     pitch: Float[Array, " joints"]
@@ -50,10 +50,10 @@ def spatial_geometry(
     columns = np.where(np.arange(4) < 3, (np.arange(4) + axis[..., None] + 1) % 3, 3)
     left, right = frames[which[..., None, None], np.arange(4)[:, None], columns[..., None, :]]
     between = _inverse(left) @ right
-    own, of_way = frames[table.begin], frames[table.begin[table.ways][table.way]]
+    own, of_distinct = frames[table.begin], frames[table.begin[table.distinct][table.same_rows_as]]
     return Spatial(
-        between[:-1, table.ways],
-        _inverse(of_way) @ own,
+        between[:-1, table.distinct],
+        _inverse(of_distinct) @ own,
         between[-1],
         pitch,
         spin_lines(system, frames),

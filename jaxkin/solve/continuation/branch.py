@@ -13,7 +13,7 @@ from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.geometry.trig import TURN
-from jaxkin.solve.closure.joint_coordinates import ball_turns
+from jaxkin.solve.closure.joint_coordinates import ball_rotations
 from jaxkin.solve.continuation.branch_samples import MEETING, BranchSamples, sample_rows, winding
 from jaxkin.solve.continuation.fronts import ContinuationProblem, Fronts, arrived, assembled_fronts, stopped_at_limit
 from jaxkin.solve.continuation.step import substep
@@ -128,6 +128,6 @@ def _same_pose(problem: ContinuationProblem, state: State) -> Bool[Array, ""]:
     same = SAME_POSE if jnp.finfo(state.x.dtype).bits == 64 else SAME_POSE_SINGLE
     rest = jnp.max(jnp.abs(state.x[:, 1] - state.x[:, 0] - winding(system, problem.geometry, state)))
     if system.turned_balls:
-        for turn in ball_turns(system, problem.geometry, state).values():
-            rest = jnp.maximum(rest, jnp.max(jnp.abs(turn[..., 1] - turn[..., 0])))
+        for rotation in ball_rotations(system, problem.geometry, state).values():
+            rest = jnp.maximum(rest, jnp.max(jnp.abs(rotation[..., 1] - rotation[..., 0])))
     return rest <= same

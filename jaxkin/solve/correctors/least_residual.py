@@ -16,7 +16,7 @@ from jaxtyping import Array, Float, Int
 
 from jaxkin.linkage.first_order import LARGEST_UNCERTAIN, SPREAD
 from jaxkin.solve.closure.closure import closure, free_jacobian, scaled_geometry
-from jaxkin.solve.closure.joint_coordinates import as_state, ball_turns, joint_coordinates, unwrap_ball_angles
+from jaxkin.solve.closure.joint_coordinates import as_state, ball_rotations, joint_coordinates, unwrap_ball_angles
 from jaxkin.solve.status import Scalar, Status
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
@@ -56,7 +56,7 @@ def least_residual(
 
     state = lax.fori_loop(0, LEAST_RESIDUAL_STEPS, step, state)
     found = joint_coordinates(
-        system, joints.frames_1, joints.frames_2, state.x * lengths, ball_turns(system, geometry, state)
+        system, joints.frames_1, joints.frames_2, state.x * lengths, ball_rotations(system, geometry, state)
     )
     residual_norm = closure(system, geometry, state).residual_norm
     misfit = (status == Status.CLOSED.value) & (residual_norm > max_residual)

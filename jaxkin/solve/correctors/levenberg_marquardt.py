@@ -62,6 +62,8 @@ by halves, the cosine is the distance from it and the residual norm the square o
 
 
 class LevenbergMarquardtResult(NamedTuple):
+    """Corrected states, with the closure there."""
+
     state: State
     closure: Closure
     residual_norm: Float[Array, " poses"]
@@ -70,6 +72,8 @@ class LevenbergMarquardtResult(NamedTuple):
 
 
 class _Iterate(NamedTuple):
+    """The carry of the iteration: the last accepted state and the next one to try."""
+
     count: Array
     state: State
     closure: Closure

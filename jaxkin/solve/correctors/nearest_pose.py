@@ -22,7 +22,7 @@ from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.solve.closure.closure import Geometry, closure, free_jacobian, scaled_geometry
-from jaxkin.solve.closure.joint_coordinates import as_state, ball_turns, joint_coordinates
+from jaxkin.solve.closure.joint_coordinates import as_state, ball_rotations, joint_coordinates
 from jaxkin.solve.correctors.levenberg_marquardt import damping_floor, levenberg_marquardt, select_poses
 from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.linear.least_norm import solve_least_norm, solve_least_norm_refined
@@ -81,8 +81,8 @@ def nearest_poses(
     found = _search(problem, lax.stop_gradient((geometry, begun, weights)), tolerance)
     state = _attach_derivative(system, geometry, begun, weights, found.state, found.settled)
     square = jnp.sum(_offset(system, begun, state, weights) ** 2, axis=0)
-    turns = ball_turns(system, geometry, state)
-    moved = joint_coordinates(system, joints.frames_1, joints.frames_2, state.x * lengths, turns)
+    rotations = ball_rotations(system, geometry, state)
+    moved = joint_coordinates(system, joints.frames_1, joints.frames_2, state.x * lengths, rotations)
     return NearestPoses(moved, found.status, found.residual_norm, square, found.settled)
 
 

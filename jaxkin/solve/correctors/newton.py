@@ -27,6 +27,8 @@ is singular, convergence is linear and the ratio a quarter at best."""
 
 
 class _Iterate(NamedTuple):
+    """The carry of the iteration: the last state whose closure is known, and the next one."""
+
     count: Array
     state: State
     closure: Closure

@@ -128,6 +128,7 @@ def _solve(
     shard_count: int = 1,
     follow_limits: bool = True,
 ) -> tuple[Float[Array, "columns shard"], Outcome]:
+    """Find poses and displacements of a shard: the program of a plain sweep."""
     count_trace()
     poses = find_poses(system, options, joints, inputs, tolerance, shard_count, shard_start, follow_limits)
     own = shard(inputs, shard_count, shard_start)

@@ -37,9 +37,6 @@ from jaxkin.solve.status import ClosureTolerance, Status
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 
-Given = Float[Array | np.ndarray, "driven poses"]
-"""Inputs, radians or lengths of the mechanism."""
-
 
 def solve(
     system: LoopSystem,
@@ -57,8 +54,12 @@ def solve(
     `options.tolerance`. `axes` are those of the assembled pose, of systems whose groups all have formulas, and `line`
     is that of a full turn: the general program is compiled only if the formulas do not prove that the motion leads to
     every pose.
+
+    Three routes, in this order: formulas in one program, where numbers are known and the formulas prove all poses;
+    `solve_numbers`, where numbers are known and nothing is traced; else poses without derivatives, by formulas or by
+    the general solver, and displacements from these by the function that is differentiated.
     """
-    by_formula = axes is not None and by_formulas(options, inputs)
+    by_formula = axes is not None and prefers_formulas(options, inputs)
     known = not traced((joints, inputs, tolerance))
     if known and axes is not None and by_formula:
         line = line or line_of(system, axes, np.asarray(inputs))
@@ -99,9 +100,8 @@ def project(
     return _projection_program(known)(system, options.of_program, joints, given, weights, tolerance)
 
 
-def by_formulas(options: SolverOptions, inputs: Float[Array | np.ndarray, "*driven poses"]) -> bool:
-    """Tell whether a range is short enough for formulas, where there are some: CPUs interpolate longer ones, which
-    costs less a pose."""
+def prefers_formulas(options: SolverOptions, inputs: Float[Array | np.ndarray, "*driven poses"]) -> bool:
+    """Tell whether a range goes by formulas, if there are some: CPUs interpolate long ones, which costs less a pose."""
     return _asks_for_formulas(options, inputs) and (inputs.shape[-1] < options.interpolate_from or not on_cpu())
 
 
@@ -111,7 +111,11 @@ def _asks_for_formulas(options: SolverOptions, inputs: Float[Array | np.ndarray,
 
 
 def _formulas_suffice(
-    system: LoopSystem, options: SolverOptions, inputs: Given, axes: Axes | None, line: Line | None
+    system: LoopSystem,
+    options: SolverOptions,
+    inputs: Float[Array | np.ndarray, "driven poses"],
+    axes: Axes | None,
+    line: Line | None,
 ) -> bool:
     """Tell whether a traced range is left to formulas alone: the geometry is traced, too, or has no limit in a turn.
 
@@ -123,10 +127,11 @@ def _formulas_suffice(
 
 
 def _outcome(poses: Poses | FormulaPoses) -> Outcome:
+    """Select status and residual norm."""
     return Outcome(poses.status, poses.residual_norm)
 
 
-def _by_formula(
+def _sweep_by_formula(
     system: LoopSystem,
     joints: Joints,
     axes: Axes,
@@ -134,6 +139,7 @@ def _by_formula(
     inputs: Float[Array, "1 poses"],
     tolerance: ClosureTolerance,
 ) -> tuple[Float[Array, "columns poses"], Outcome, Bool[Array, ""]]:
+    """Compute displacements and outcome by formulas, and whether these prove that all poses are closed."""
     count_trace()
     found = find_poses_by_formula(system, axes, line, inputs, tolerance)
     displaced = joint_displacements(system, joints, axes, found.rows)
@@ -161,14 +167,16 @@ def _poses_by_formula(
     return by_formulas_in_groups(find)(joints, inputs, tolerance, axes, line)
 
 
-def _of_all_designs(
+def _poses_of_all_designs(
     system: LoopSystem, options: SolverOptions, joints: Joints, inputs: Array, tolerance: ClosureTolerance
 ) -> Poses:
+    """Find poses by the general solver; under `vmap` of joints those of all designs: see `all_designs`."""
     count_trace()
     return all_designs(partial(find_poses, system, options), _all_closed)(joints, inputs, tolerance)
 
 
 def _all_closed(poses: Poses) -> Array:
+    """Tell whether all poses of a design are CLOSED."""
     return jnp.all(poses.status == Status.CLOSED.value)
 
 
@@ -179,7 +187,7 @@ _displacements_program = jax.jit(displacements, static_argnames="system")
 @cache
 def _formula_program():
     """Make the program of a plain sweep whose poses are formulas: poses and displacements."""
-    return jax.jit(_by_formula, static_argnames="system", **jit_options())
+    return jax.jit(_sweep_by_formula, static_argnames="system", **jit_options())
 
 
 @cache
@@ -195,7 +203,7 @@ _formula_displacements_program = jax.jit(displacements_by_formula, static_argnam
 @cache
 def _poses_program(whole: bool):
     """Make the function that finds poses without displacements: a program of its own, or part of a traced one."""
-    return jax.jit(_of_all_designs, static_argnames=("system", "options"), **(jit_options() if whole else {}))
+    return jax.jit(_poses_of_all_designs, static_argnames=("system", "options"), **(jit_options() if whole else {}))
 
 
 @cache

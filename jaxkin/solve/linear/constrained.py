@@ -37,7 +37,7 @@ def minimise_constrained(
     found = orthonormal_rows(whitened)
 
     def vanishing(y: Vector) -> Vector:
-        """D y. Its derivative is that of the projector, which changes with E."""
+        """Compute D y, whose derivative is that of the projector, which changes with E."""
         least = column_sums(found.vanishing, row_sums(found.vanishing, y))
         inside = row_sums(equations, column_sums(root, column_sums(found.rows, row_sums(found.made_by, y))))
         inside = column_sums(found.vanishing, row_sums(found.vanishing, inside))
@@ -59,10 +59,10 @@ def minimise_constrained(
 
 
 def row_sums(matrix: Matrix, vector: Float[Array, "columns poses"]) -> Vector:
-    """A x."""
+    """Compute A x at every pose."""
     return jnp.sum(matrix * vector[None], axis=1)
 
 
 def column_sums(matrix: Matrix, vector: Vector) -> Float[Array, "columns poses"]:
-    """A^T x."""
+    """Compute A^T x at every pose."""
     return jnp.sum(matrix * vector[:, None], axis=0)

@@ -45,5 +45,5 @@ def known_displacements(
             delta = solve_least_norm(jacobian, found.residual, damping_floor(jacobian.dtype), system.used)
             state = retract(system, state, -delta)
     # few equations are solved by straight-line code, which needs no cache
-    group = None if system.equations <= MAX_ALWAYS_UNROLLED_ROWS else DERIVATIVE_GROUP
-    return displacements(system, joints, inputs, Poses(state, status, jnp.zeros_like(state.x[0])), group)
+    size = None if system.equations <= MAX_ALWAYS_UNROLLED_ROWS else DERIVATIVE_GROUP
+    return displacements(system, joints, inputs, Poses(state, status, jnp.zeros_like(state.x[0])), size)

@@ -17,7 +17,7 @@ from jax import lax
 from jaxtyping import Array, Bool, Float, Int, Shaped
 
 from jaxkin.solve.closure.closure import Geometry, closure, scaled_geometry
-from jaxkin.solve.closure.joint_coordinates import ball_turns, joint_coordinates, unwrap_ball_angles
+from jaxkin.solve.closure.joint_coordinates import ball_rotations, joint_coordinates, unwrap_ball_angles
 from jaxkin.solve.continuation.branch import trace_branch
 from jaxkin.solve.continuation.branch_samples import BranchSamples, predict
 from jaxkin.solve.continuation.fronts import ContinuationProblem
@@ -83,7 +83,7 @@ def find_poses(
     joints, inputs = lax.stop_gradient((joints, inputs))
     geometry, lengths = scaled_geometry(system, joints)
     asked = _Range(geometry, inputs / driven(system, lengths), tolerance, shard_count, shard_start, follow_limits)
-    poses = _found(system, options, asked)
+    poses = _by_method(system, options, asked)
     # correctors take what rounding leaves for closed, whatever tolerance was asked for
     rough = closes_before_limits(poses.status) & (poses.residual_norm > tolerance.max_residual)
     return poses._replace(status=jnp.where(rough, Status.STALLED.value, poses.status).astype(jnp.int32))
@@ -104,27 +104,27 @@ def displacements(
     joints: Joints,
     inputs: Float[Array, "driven poses"],
     poses: Poses,
-    group: int | None = DERIVATIVE_GROUP,
+    size: int | None = DERIVATIVE_GROUP,
 ) -> Float[Array, "columns poses"]:
     """Compute the displacements of all joints in the poses found, as differentiable functions of joints and inputs.
 
     Displacements are in radians and lengths of the mechanism. A pose that did not close has derivatives of zero. On
-    CPUs, poses are taken in groups of `group`; None for all at once.
+    CPUs, poses are taken in groups of `size`; None for all at once.
     """
     geometry, lengths = scaled_geometry(system, joints)
 
-    def read(some: tuple[Array, Poses]) -> Float[Array, "columns group"]:
-        inputs, poses = some
+    def of_group(group: tuple[Array, Poses]) -> Float[Array, "columns group"]:
+        inputs, poses = group
         state = attach_derivative(system, geometry, inputs, poses.state, closes_before_limits(poses.status))
-        turns = ball_turns(system, geometry, state)
-        return joint_coordinates(system, joints.frames_1, joints.frames_2, state.x * lengths, turns)
+        rotations = ball_rotations(system, geometry, state)
+        return joint_coordinates(system, joints.frames_1, joints.frames_2, state.x * lengths, rotations)
 
     given = inputs / driven(system, lengths), lax.stop_gradient(poses)
-    found = in_groups(read, given, group or max(1, inputs.shape[1])) if system.free else read(given)
+    found = in_groups(of_group, given, size or max(1, inputs.shape[1])) if system.free else of_group(given)
     return unwrap_ball_angles(system, found) if system.balls else found
 
 
-def _found(system: LoopSystem, options: SolverOptions, asked: _Range) -> Poses:
+def _by_method(system: LoopSystem, options: SolverOptions, asked: _Range) -> Poses:
     """Find the poses by the method of the options."""
     geometry, tolerance = asked.geometry, asked.tolerance
     inputs = shard(asked.inputs, asked.shard_count, asked.shard_start)

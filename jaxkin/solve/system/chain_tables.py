@@ -121,11 +121,11 @@ class ChainTables(NamedTuple):
     the same coordinate, which is to be added to it, and their chain."""
     rods: np.ndarray
     """(2, rods): numbers of both chains of each loop that is cut at a rod."""
-    ways: np.ndarray
-    """(ways,): number of the first chain of each way. Chains with equal rows go the same way, and may begin and end in
-    different frames: from ball to ball of a platform, all rods but one are closed by the way through that one."""
-    way: np.ndarray
-    """(chains,): number of the way of each chain."""
+    distinct: np.ndarray
+    """(distinct,): numbers of the chains whose rows differ from those of all chains before. Chains with equal rows may
+    begin and end in different frames: on a platform the chains from all rods but one pass through that one."""
+    same_rows_as: np.ndarray
+    """(chains,): for each chain the number, among `distinct`, of the one with the same rows."""
 
 
 @lru_cache(maxsize=256)
@@ -148,16 +148,17 @@ def chain_tables(system: LoopSystem) -> ChainTables:
     rows["ball"] = quaternion[rows["ball"]]
     rods = np.array([of_rods, np.arange(len(by_loop), len(chains))], np.int32)
     first = {tuple(chain.rows): number for number, chain in reversed([*enumerate(chains)])}
-    ways = np.array(sorted(first.values()), np.int32)
-    way = np.array([list(ways).index(first[tuple(chain.rows)]) for chain in chains], np.int32)
-    return ChainTables(**rows, **ends, source=source[used], used=used, repeats=repeats, rods=rods, ways=ways, way=way)
+    distinct = np.array(sorted(first.values()), np.int32)
+    same_rows_as = np.array([list(distinct).index(first[tuple(chain.rows)]) for chain in chains], np.int32)
+    sources = {"source": source[used], "used": used, "repeats": repeats}
+    return ChainTables(**rows, **ends, **sources, rods=rods, distinct=distinct, same_rows_as=same_rows_as)
 
 
 @lru_cache(maxsize=256)
-def way_tables(system: LoopSystem) -> ChainTables:
-    """Make the tables of a system with the entries of `ChainRow` by ways, (rows, ways), in place of chains."""
+def distinct_tables(system: LoopSystem) -> ChainTables:
+    """Make the tables of a system with the entries of `ChainRow` of the distinct chains only, (rows, distinct)."""
     table = chain_tables(system)
-    return table._replace(**{name: getattr(table, name)[:, table.ways] for name in ChainRow._fields})
+    return table._replace(**{name: getattr(table, name)[:, table.distinct] for name in ChainRow._fields})
 
 
 def _sources(system: LoopSystem, column: np.ndarray, ball: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from itertools import accumulate, pairwise
 from typing import NamedTuple
 
-from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.partial_movement import remaining
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.coordinates import coordinate
@@ -55,14 +55,12 @@ def solved_coordinates(
                 break
     movements = []
     for index in loop_group.joints:
-        chain, first = [], 0
-        for name in linkage.joints[index].movements:
-            count = len(MOVEMENTS[name].coordinates)
-            left = remaining(name, [k for k in range(count) if (index, first + k) in kept])
+        chain, names = [], linkage.joints[index].movements
+        for name, own in zip(names, coordinate_ranges(names), strict=True):
+            left = remaining(name, [k for k, coordinate in enumerate(own) if (index, coordinate) in kept])
             if left is None:
                 raise ValueError(f"no movement is left of the movement {name} where what leaves the plane rests")
             chain.append(left)
-            first += count
         movements.append(tuple(chain))
     inside, outside = ([place for place in every if (place in kept) == yes] for yes in (True, False))
     return SolvedCoordinates(tuple(inside), tuple(movements), planar, tuple(outside))

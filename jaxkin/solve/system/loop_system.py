@@ -13,6 +13,7 @@ from functools import cached_property
 from itertools import accumulate
 from typing import NamedTuple
 
+from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.joints.screws import freedoms
 from jaxkin.linkage.first_order import IN_SUBGROUP
@@ -79,14 +80,13 @@ class LoopSystem:
     @cached_property
     def chains(self) -> tuple[tuple[PlacedMovement, ...], ...]:
         """For each joint its movements, from part 1 to part 2."""
-        chains = []
-        for joint, movements in enumerate(self.movements):
-            column, chain = self._first_columns[joint], []
-            for frame, name in enumerate(movements):
-                chain.append(PlacedMovement(name, frame, column, self.places.get((joint, frame), (None,))[0]))
-                column += len(MOVEMENTS[name].coordinates)
-            chains.append(tuple(chain))
-        return tuple(chains)
+        return tuple(
+            tuple(
+                PlacedMovement(name, frame, own.start, self.places.get((joint, frame), (None,))[0])
+                for frame, (name, own) in enumerate(zip(movements, self._movement_columns[joint], strict=True))
+            )
+            for joint, movements in enumerate(self.movements)
+        )
 
     @cached_property
     def balls(self) -> tuple[tuple[int, ...], ...]:
@@ -102,22 +102,25 @@ class LoopSystem:
         return tuple(accumulate(map(freedoms, self.movements), initial=0))
 
     @cached_property
+    def _movement_columns(self) -> tuple[tuple[range, ...], ...]:
+        """For each joint the columns of each of its movements."""
+        ranges = iter(coordinate_ranges(name for movements in self.movements for name in movements))
+        return tuple(tuple(next(ranges) for _ in movements) for movements in self.movements)
+
+    @cached_property
     def places(self) -> dict[tuple[int, int], tuple[int, tuple[int, ...]]]:
         """(joint, frame) of each ball -> its number and its columns, by rising number."""
         pairs, locking = {}, {}
         for joint, movements in enumerate(self.movements):
-            column = self._first_columns[joint]
             given = not set(self.driven).isdisjoint(self.span(joint))
-            for frame, name in enumerate(movements):
-                columns = range(column, column + len(MOVEMENTS[name].coordinates))
+            for frame, (name, columns) in enumerate(zip(movements, self._movement_columns[joint], strict=True)):
                 # a ball driven by some of its angles is a chain of three turns, of which the others are unknown
                 if MOVEMENTS[name].ball and sum(k in self.driven for k in columns) in (0, len(columns)):
-                    pairs[joint, frame] = (column, column + 1, column + 2)
+                    pairs[joint, frame] = tuple(columns)
                 lock = MOVEMENTS[name].lock
                 follows = lock is not None and movements[frame + 1 : frame + 2] == (lock.follower,)
                 if lock and follows and not given:  # a pair with a driven coordinate keeps its angles
-                    locking[joint, frame + lock.ball] = tuple(column + k for k in lock.columns)
-                column += len(MOVEMENTS[name].coordinates)
+                    locking[joint, frame + lock.ball] = tuple(columns.start + k for k in lock.columns)
         return {place: (number, columns) for number, (place, columns) in enumerate((pairs | locking).items())}
 
     def axes(self, joints: Iterable[int]) -> list[tuple[int, int]]:

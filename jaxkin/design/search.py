@@ -1,0 +1,135 @@
+"""Search downhill from all starts at once, and again with other multipliers as long as constraints ask for it."""
+
+from __future__ import annotations
+
+import sys
+from typing import Any, NamedTuple
+
+import numpy as np
+from jaxtyping import Float
+
+from jaxkin.design.augmented_lagrangian import MET, Penalty, Verdict, renewed, worth_more
+from jaxkin.design.optimisers import Optimiser
+from jaxkin.design.solvers import CHUNK, Solver
+
+PATIENCE = 30
+"""Iterations before a start may retire because its loss falls too slowly."""
+MAX_SEARCHES = 12
+"""Largest number of searches, each with the multipliers that follow from the end of the one before."""
+
+
+class Designs(NamedTuple):
+    """The best design that each start led to, in all searches so far."""
+
+    vectors: Float[np.ndarray, "starts variables"]
+    losses: Float[np.ndarray, " starts"]
+    violations: Float[np.ndarray, " starts"]
+
+    def improved(self, vectors: Float[np.ndarray, "starts variables"], verdict: Verdict) -> Designs:
+        """Replace the designs of those starts whose new ones are better."""
+        better = _better(verdict.losses, verdict.violations, self.losses, self.violations)
+        return Designs(
+            np.where(better[:, None], vectors, self.vectors),
+            np.where(better, verdict.losses, self.losses),
+            np.where(better, verdict.violations, self.violations),
+        )
+
+    @property
+    def best(self) -> int:
+        """Number of the best feasible design; of the one of least violation where none is feasible."""
+        losses = np.where(np.isfinite(self.losses), self.losses, np.inf)
+        feasible = self.violations <= MET
+        return int(np.argmin(np.where(feasible, losses, np.inf)) if feasible.any() else np.argmin(self.violations))
+
+
+def search_with_multipliers(
+    downhill: Solver,
+    vectors: Float[np.ndarray, "starts variables"],
+    penalty: Penalty,
+    solver: Optimiser,
+    bar: ProgressBar,
+) -> tuple[Designs, str, list[np.ndarray]]:
+    """Search again, with the multipliers at which the search before ended, until constraints are met or no start may
+    get better.
+
+    Returns the best designs, why the last search ended, and the losses after each iteration of all searches.
+    """
+    starts, history, reason = len(vectors), list[np.ndarray](), ""
+    designs = Designs(vectors, *np.full((2, starts), np.inf))
+    active, unsettled = np.ones(starts, bool), np.full(starts, np.inf)
+    for number in range(1, MAX_SEARCHES + 1):
+        vectors, reason = search(downhill, vectors, penalty, active, solver, history, bar)
+        verdict = downhill.judge(vectors, penalty.shifts)
+        designs = designs.improved(vectors, verdict)
+        best = designs.best
+        on_target = solver.target is not None and designs.losses[best] <= solver.target
+        if number > 1:
+            reason += f", in the last of {number} searches for what constraints touch"
+        active = worth_more(penalty, verdict)
+        if (on_target and designs.violations[best] <= MET) or not active.any():
+            break
+        penalty, unsettled = renewed(penalty, verdict, unsettled), verdict.unsettled
+    return designs, reason, history
+
+
+def search(downhill: Solver, vectors, penalty: Penalty, active, stop: Optimiser, history, bar):
+    """Improve the active starts; returns all designs, and why the search ended.
+
+    A start retires where its loss stays as it is, or at its pace will not reach the best one in the iterations left: it
+    costs nothing more. The losses after each iteration are added to `history`.
+    """
+    state = downhill.begin(vectors, penalty)
+    iterations, tolerance, target = stop.iterations, stop.tolerance, stop.target
+    last = np.full(len(vectors), np.finfo(float).max)
+    for done in range(CHUNK, iterations + CHUNK, CHUNK):
+        state, losses = downhill.advance(state, penalty, active)
+        history.append(losses)
+        now = np.where(active, losses[-1], last)
+        least = float(np.min(now))
+        bar.show(done, least)
+        if target is not None and least <= target:
+            found = downhill.judge(downhill.vectors(state), penalty.shifts)
+            if np.any((found.losses <= target) & (found.violations <= MET)):
+                return downhill.vectors(state), f"the target {target:g} was reached after {done} iterations"
+        settled = (now >= last - tolerance * np.abs(last)) | (now <= 1e-30)
+        with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
+            expected = now * np.minimum(now / last, 1.0) ** ((iterations - done) / CHUNK)
+        hopeless = (expected > least) & (done >= PATIENCE) & (now > least * (1 + 1e-6))
+        active = active & ~(settled | hopeless)
+        last = now
+        if not active.any():
+            return downhill.vectors(state), (
+                f"converged after {done} iterations: every start improved by less than {tolerance:g} relative in "
+                f"{CHUNK} of them, or too slowly to reach the best one"
+            )
+    improving = f"{active.sum()} starts were" if active.sum() > 1 else "1 start was"
+    return downhill.vectors(state), f"all {iterations} iterations were used; {improving} still improving"
+
+
+def _better(losses, violations, losses_before, violations_before):
+    """Find the starts whose design is feasible at less loss than before, or else violates less."""
+    feasible, feasible_before = violations <= MET, violations_before <= MET
+    return np.where(feasible, ~feasible_before | (losses < losses_before), violations < violations_before)
+
+
+class ProgressBar:
+    """A bar of progress on a terminal."""
+
+    def __init__(self, iterations: int, wanted: bool | None):
+        self.bar: Any = None
+        if sys.stderr.isatty() if wanted is None else wanted:
+            from rich.console import Console
+            from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+            columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
+            self.bar = Progress(*columns, console=Console(stderr=True))
+            self.bar.start()
+            self.task = self.bar.add_task("compiling", total=iterations)
+
+    def show(self, done: int, least: float) -> None:
+        if self.bar:
+            self.bar.update(self.task, completed=done, description=f"loss {least:.3e}")
+
+    def close(self) -> None:
+        if self.bar:
+            self.bar.stop()
