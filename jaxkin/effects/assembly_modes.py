@@ -203,7 +203,7 @@ def assembly_modes(
     ranges = _ranges(drive)
     driven = resolve(linkage, ranges)
     places = [(entry.joint, entry.coordinate) for entry in driven.values()]
-    check_closed(linkage, mechanism.unit, "assembly modes", f"assembly_modes({dict(drive)})")
+    check_closed(linkage, mechanism.unit, "assembly modes", "jk.assembly_modes({}, drive)")
     if linkage.ideal:
         raise ValueError(f"assembly modes need loops that close: {'; '.join(mechanism.alignment)}")
     plan = plan_drive(linkage.in_space, tuple(ranges))

@@ -131,7 +131,7 @@ def limits(
     hold = [drive, *several(hold, "hold", "coordinates")]
     driven = coordinates(linkage, hold)
     name, place = next(iter(driven.items()))
-    check_closed(linkage, mechanism.unit, "limits", f"limits({drive!r})")
+    check_closed(linkage, mechanism.unit, "limits", f"jk.limits({{}}, {drive!r})")
     if linkage.ideal:
         raise ValueError(f"limits need loops that close: {'; '.join(mechanism.alignment)}")
     if (infeasible := infeasible_drive(linkage, list(driven.values()))) is not None:

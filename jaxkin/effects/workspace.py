@@ -156,7 +156,7 @@ def workspace(
         raise ValueError(f"there is no part {part!r}{nearest(part, mechanism.parts)}")
     keys = (*grid, *several(hold, "hold", "coordinates"))
     driven = coordinates(linkage, keys)
-    check_closed(linkage, mechanism.unit, "a workspace", "workspace(...)")
+    check_closed(linkage, mechanism.unit, "a workspace", "jk.workspace({}, ...)")
     if linkage.ideal:
         raise ValueError(f"a workspace needs loops that close: {'; '.join(mechanism.alignment)}")
     plan = plan_drive(linkage, keys)

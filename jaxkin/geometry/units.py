@@ -14,6 +14,15 @@ METRES = {
 """Metres in a unit; where no unit was said, lengths are taken for metres."""
 
 
+def check_unit(unit: str) -> str:
+    """Return the name of a unit of length, "" where none was said; raise ValueError for others than `METRES`."""
+    if not isinstance(unit, str):
+        raise ValueError(f"unit must be text, got {unit!r}")
+    if unit not in METRES:
+        raise ValueError(f"unit must be one of {', '.join(filter(None, METRES))}, or '' for metres, got {unit!r}")
+    return unit
+
+
 def unit_name(unit: str) -> str:
     """Name a unit in a sentence: its abbreviation, but "inches" for "in", which reads as a preposition."""
     return "inches" if unit == "in" else unit

@@ -12,7 +12,7 @@ import numpy as np
 
 from jaxkin.assembly.assembly import Assembly
 from jaxkin.geometry.part import Part, size
-from jaxkin.geometry.units import METRES
+from jaxkin.geometry.units import check_unit
 from jaxkin.io.exports import read_exported
 from jaxkin.io.mechanism_file import MECHANISM_SUFFIX, read_mechanism
 from jaxkin.io.mesh import MESHES, read_mesh
@@ -59,8 +59,8 @@ def load(
     time, where files differ in their unit, or are in another one than `unit`. Warns of damages that leave something to
     be read.
     """
-    if unit is not None and (not isinstance(unit, str) or unit not in METRES):
-        raise ValueError(f"unit must be one of {', '.join(filter(None, METRES))}, got {unit!r}")
+    if unit is not None:
+        check_unit(unit)
     if isinstance(source, str | Path):
         path, name = Path(source), Path(source).name
         suffix = path.suffix.lower()

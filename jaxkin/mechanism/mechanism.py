@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any
 
 import jax
 
-from jaxkin._arguments import text
 from jaxkin._named import Named
 from jaxkin._names import nearest
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.part import Part
+from jaxkin.geometry.units import check_unit
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.evidence import Bond
 from jaxkin.joints.joint import Joint, check_joints
@@ -84,7 +84,7 @@ class Mechanism:
         check_joints(joints)
         parts = list(dict.fromkeys(part for joint in joints for part in joint.parts))
         found = structure(parts, [(joint.name, *joint.parts) for joint in joints], fixed)
-        linkage, notes = aligned(coupled(Linkage.of(joints, found), couplings), asked_noise(align), text(unit, "unit"))
+        linkage, notes = aligned(coupled(Linkage.of(joints, found), couplings), asked_noise(align), check_unit(unit))
         return Mechanism(linkage, unit, alignment=notes)
 
     @property

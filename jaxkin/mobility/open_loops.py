@@ -64,12 +64,13 @@ def opening(linkage: Linkage, unit: str = "") -> Opening | None:
 def check_closed(linkage: Linkage, unit: str, what: str, call: str) -> None:
     """Raise ValueError if the given pose is open, with the size of the opening and how to close it.
 
-    `what` names the result that cannot be computed then, and `call` is the method call that computes it.
+    `what` names the result that cannot be computed then, and `call` is the call that computes it, with `{}` in place of
+    the mechanism.
     """
     if (found := opening(linkage, unit)) is not None:
         raise ValueError(
             f"{what} cannot be told of a pose that is not closed: {found}; close it first, mechanism.close() says how "
-            f"far parts have to move for that, and write mechanism.close().mechanism.{call}"
+            f"far parts have to move for that, and write {call.replace('{}', 'mechanism.close().mechanism')}"
         )
 
 

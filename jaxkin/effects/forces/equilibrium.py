@@ -16,6 +16,7 @@ from jaxkin._traced import traced
 from jaxkin.effects.forces.drive import drive_forces
 from jaxkin.effects.forces.given import Applied
 from jaxkin.effects.forces.masses import Masses
+from jaxkin.effects.forces.reactions import HELD, Reactions, reactions
 from jaxkin.effects.forces.screws import Scale
 from jaxkin.effects.forces.wrenches import STANDARD_GRAVITY, units_of
 from jaxkin.effects.pose_plot import draw_lines, save_rows
@@ -32,6 +33,8 @@ MAX_STEPS = 60
 WITHIN = 1e-12
 """Width of a sign change, or length of a step, over the range of the drive, at which it is refined enough. In float32
 it is the unit of rounding."""
+MAX_NAMED = 4
+"""Coordinates without a drive that a printed result names at most: one freedom shows in several."""
 NO_FORCE = 16
 """Units of rounding of all weights, times the size for a torque, up to which a drive force counts as none. A four-bar
 in a horizontal plane that is drawn askew has forces of one or two."""
@@ -57,6 +60,9 @@ class Equilibrium:
     """Intervals from the first to the last of neighbouring poses of the range, none of which needs a drive."""
     motion: Motion
     """The poses in equilibrium."""
+    out_of_balance: Mapping[str, float]
+    """For each coordinate without a drive that would not stay in all these poses, the largest load that would hold it,
+    newton metres or newtons. Such a pose is no equilibrium of the mechanism, and neither stable nor unstable."""
     inputs: Inputs
     """The range that was searched, rising."""
     forces: Float[np.ndarray, " poses"]
@@ -69,7 +75,20 @@ class Equilibrium:
         if not lines:
             return f"No equilibrium of {self.name} from {poses}"
         count = "1 equilibrium" if len(lines) == 1 else f"{len(lines)} equilibria"
-        return "\n".join([f"{count} of {self.name} from {poses}", *lines])
+        return "\n".join([f"{count} of {self.name} from {poses}", *lines, *self._what_moves()])
+
+    def _what_moves(self) -> list[str]:
+        """Say which coordinates without a drive do not stay where they are."""
+        if not self.out_of_balance:
+            return []
+        loads = [f"{load:.3g} {units_of(self.motion, name)[0]}" for name, load in self.out_of_balance.items()]
+        some = [f"{name} (up to {load})" for name, load in zip(self.out_of_balance, loads, strict=True)][:MAX_NAMED]
+        more = len(loads) - len(some)
+        return [
+            f"  but no equilibria of the mechanism: loads would have to hold {', '.join(some)}"
+            f"{f' and {more} more' if more else ''}, without a drive; hold one of them, as in "
+            f"{{{self.name!r}: ..., {next(iter(self.out_of_balance))!r}: 0.0}}, or balance it"
+        ]
 
     def _told(self) -> list[tuple[str, str]]:
         """Say of each single equilibrium whether it is stable, in words and by a marker."""
@@ -111,34 +130,50 @@ def equilibrium(
 ) -> Equilibrium:
     """Find the displacements of one driven coordinate at which its force vanishes at rest.
 
-    `drive` gives the range to search, `{"A": np.linspace(0, 2 * np.pi, 73)}`: equilibria are told apart by its steps,
-    and refined to 1e-12 of it, in float32 to rounding; where neighbouring poses need no drive, as of a linkage in a
-    horizontal plane, the mechanism is indifferent from the first to the last of them. Other arguments are those of
-    `jk.drive_forces`, for all poses alike. Poses must follow each other on the branch of the assembled pose; no
-    equilibrium is found between poses that are not closed (`motion.closed`).
+    `drive` gives the range to search, `{"A": np.linspace(0, 2 * np.pi, 73)}`, and single displacements at which other
+    coordinates are held, by whatever force: `{"A": ..., "E": 0.2}`. Equilibria are told apart by the steps of the
+    range, and refined to 1e-12 of it, in float32 to rounding; where neighbouring poses need no drive, as of a linkage
+    in a horizontal plane, the mechanism is indifferent from the first to the last of them. Other arguments are those
+    of `jk.drive_forces`, for all poses alike. Poses must follow each other on the branch of the assembled pose; no
+    equilibrium is found between poses that are not closed (`motion.closed`). Freedoms that nothing drives or holds may
+    be out of balance there: these are told (`out_of_balance`).
 
-    Raises ValueError for drives of several coordinates, for fewer than two poses, inside `jit`, `vmap` and `grad`, and
+    Raises ValueError for ranges of several coordinates, for fewer than two poses, inside `jit`, `vmap` and `grad`, and
     as `jk.drive_forces`.
     """
     check_mechanism(mechanism, "equilibria")
     drive = by_name(drive, "driven displacements", "{'A': np.linspace(0, 2 * np.pi, 73)}")
     if traced(mechanism, dict(drive), masses, applied):
         raise ValueError("equilibria are found on the host: call jk.equilibrium outside of jit, vmap and grad")
-    if len(drive) != 1:
-        raise ValueError(f"an equilibrium is found along one driven coordinate, got {len(drive)}; hold the others")
-    ((key, given),) = drive.items()
-    inputs = np.unique(numbers(given, f"the range of {key!r}").ravel())
+    given = {key: np.unique(numbers(some, f"the range of {key!r}").ravel()) for key, some in drive.items()}
+    ranges = [key for key, some in given.items() if len(some) > 1] or [*given][:1]
+    if len(ranges) != 1:
+        raise ValueError(
+            f"an equilibrium is found along one driven coordinate, got ranges of {len(ranges)}: "
+            f"{', '.join(map(repr, ranges))}; hold the others with one displacement each, {{{ranges[0]!r}: "
+            f"np.linspace(0, 2 * np.pi, 73), {ranges[1]!r}: 0.0}}"
+            if ranges
+            else "an equilibrium is found along a driven coordinate, got none; give a range, "
+            "{'A': np.linspace(0, 2 * np.pi, 73)}"
+        )
+    (key,) = ranges
+    inputs = given.pop(key)
     if len(inputs) < 2 or not np.isfinite(inputs).all():
         raise ValueError(f"the range of {key!r} must be two displacements or more, as np.linspace(0, 2 * np.pi, 73)")
+
+    name = next(iter(coordinates(mechanism.linkage, [key])))
+
+    def posed(values: Inputs) -> Motion:
+        return mechanism.sweep({key: values, **{each: np.full(len(values), *at) for each, at in given.items()}})
 
     def force(values: Inputs) -> Float[np.ndarray, " poses"]:
         # all of one length, so that they share a compiled program
         padded = np.pad(values, (0, max(0, len(inputs) - len(values))), mode="edge")
-        found = drive_forces(mechanism.sweep({key: padded}), masses, gravity=gravity, applied=applied)
-        return np.asarray(next(iter(found.forces.values())), float)[: len(values)]
+        found = drive_forces(posed(padded), masses, gravity=gravity, applied=applied)
+        return np.asarray(found.forces[name], float)[: len(values)]
 
     forces = force(inputs)
-    eps, name = float(jnp.finfo(float).eps), next(iter(coordinates(mechanism.linkage, [key])))
+    eps = float(jnp.finfo(float).eps)
     least = NO_FORCE * eps * _weight(mechanism, name, masses, gravity)
     none = np.abs(forces) <= least
     between = none[:-1] & none[1:]  # two equilibria may be neighbours, with forces between them
@@ -156,10 +191,40 @@ def equilibrium(
     beside = force(np.concatenate([values - step, values + step])) if len(values) else np.zeros(0)
     growth = beside[len(values) :] - beside[: len(values)]
     order = np.argsort(values)
-    motion = mechanism.sweep({key: values[order]})
+    values, growth = values[order], growth[order]
+    loads: dict[str, Inputs] = {}
+    if _has_others(mechanism, len(drive)) and (len(values) or len(indifferent)):
+        poses = posed(np.concatenate([values, inputs[indifferent].ravel()]))
+        most = HELD * max(float(np.nanmax(np.abs(forces))), _weight(mechanism, name, masses, gravity))
+        loads = _out_of_balance(reactions(poses, masses, gravity=gravity, applied=applied), most)
+    still = ~np.any([np.zeros(len(values), bool), *(load[: len(values)] != 0 for load in loads.values())], axis=0)
     return Equilibrium(
-        name, values[order], growth[order] > 0, growth[order] < 0, inputs[indifferent], motion, inputs, forces
+        name,
+        values,
+        (growth > 0) & still,
+        (growth < 0) & still,
+        inputs[indifferent],
+        posed(values),
+        {each: float(load.max()) for each, load in loads.items()},
+        inputs,
+        forces,
     )
+
+
+def _has_others(mechanism: Mechanism, driven: int) -> bool:
+    """Tell whether a mechanism has more freedoms that are not idle than are driven or held."""
+    found = mechanism.mobility()
+    return found.freedoms - found.idle_freedoms > driven
+
+
+def _out_of_balance(found: Reactions, most: float) -> dict[str, Inputs]:
+    """Find the loads that hold coordinates without a drive, zero where they are at most `most`; none where all are."""
+    loads = {
+        f"{name}.{coordinate}": np.abs(np.nan_to_num(np.asarray(found.held[name], float)[:, k]))
+        for name, joint in found.motion.mechanism.joints.items()
+        for k, coordinate in enumerate(joint.coordinates)
+    }
+    return {name: np.where(load > most, load, 0.0) for name, load in loads.items() if np.any(load > most)}
 
 
 def _weight(mechanism: Mechanism, name: str, masses: Masses | None, gravity: Any) -> float:

@@ -27,8 +27,8 @@ DAMPED_GROUP = 32
 open."""
 
 VALLEY = 10
-"""Steps to a least residual, at most, over `rescue_steps`: far beyond a limit the residual may have a long bent valley, as
-of a crank longer than all other bars together, along which 200 steps are not enough."""
+"""Steps to a least residual, at most, over `rescue_steps`: far beyond a limit the residual may have a long bent valley,
+as of a crank longer than all other bars together, along which 200 steps are not enough."""
 
 
 def correct_damped(

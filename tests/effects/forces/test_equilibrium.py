@@ -31,6 +31,30 @@ def test_a_pendulum_hangs_or_stands():
 
 
 @pytest.mark.long
+def test_a_freedom_without_a_drive_is_told_or_held():
+    """A double pendulum bent by a right angle: where its first hinge needs no torque, the second one would move.
+
+    V = m g (3/2 sin a + 1/2 cos(a + b)) for arms of one metre and bodies of one kilogram.
+    """
+    hinges = [
+        jk.revolute("A", "base", "arm", point=(0, 0, 0), axis=Z),
+        jk.revolute("B", "arm", "hand", point=(1, 0, 0), axis=Z),
+    ]
+    mechanism = jk.Mechanism.build(fixed=["base"], joints=hinges, unit="m")
+    own = jk.masses(mechanism, given={"arm": jk.Mass(1.0, (0.5, 0, 0)), "hand": jk.Mass(1.0, (1, 0.5, 0))})
+    turns, weight = {"A": np.linspace(-3.0, 3.0, 25)}, (0, -9.81, 0)
+    alone = jk.equilibrium(mechanism, turns, own, gravity=weight)
+    expected = [np.arctan(3.0) - np.pi, np.arctan(3.0)]
+    np.testing.assert_allclose(alone.values, expected, atol=1e-9)
+    np.testing.assert_allclose(alone.out_of_balance["B.phi"], 9.81 / 2 * 3 / np.sqrt(10), rtol=1e-9)
+    assert not alone.stable.any() and not alone.unstable.any()
+    assert "but no equilibria of the mechanism" in str(alone) and "{'A.phi': ..., 'B.phi': 0.0}" in str(alone)
+    held = jk.equilibrium(mechanism, turns | {"B": 0.0}, own, gravity=weight)
+    np.testing.assert_allclose(held.values, expected, atol=1e-9)
+    assert held.stable.tolist() == [True, False] and not held.out_of_balance
+
+
+@pytest.mark.long
 @pytest.mark.parametrize("poses", [2, 3, 11])
 def test_equilibria_at_the_poses_of_the_range_are_found(poses):
     """The weight has no lever at -pi/2 and pi/2, where rounding leaves some 1e-16 of it, and one between."""
@@ -146,8 +170,8 @@ def test_where_a_force_goes_to_infinity_it_does_not_vanish():
 
 def test_bad_ranges_are_refused():
     mechanism = planar_fourbar()
-    with pytest.raises(ValueError, match="along one driven coordinate, got 2"):
-        jk.equilibrium(mechanism, {"A": np.zeros(3), "D": np.zeros(3)})
+    with pytest.raises(ValueError, match="along one driven coordinate, got ranges of 2"):
+        jk.equilibrium(mechanism, {"A": np.arange(3.0), "D": np.arange(3.0)})
     with pytest.raises(ValueError, match="must be two displacements or more"):
         jk.equilibrium(mechanism, {"A": np.zeros(1)})
     with pytest.raises(ValueError, match="nothing acts"):
