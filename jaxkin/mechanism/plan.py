@@ -65,7 +65,7 @@ def plan(mechanism: Mechanism, drive: Iterable[Key]) -> Plan:
     keys = {coordinate(linkage, key): key for key in drive}
     if not keys:
         raise ValueError("the drive is empty: name at least one joint, as in plan(['A'])")
-    check_closed(linkage, mechanism.unit, "the plan of a drive", f"plan({[str(key) for key in keys.values()]})")
+    check_closed(linkage, mechanism.unit, "the plan of a drive", f"{{}}.plan({[str(key) for key in keys.values()]})")
     found = plan_drive(linkage, tuple(keys.values()))
     steps: list[Step] = []
     for loop_group in found.loop_groups:

@@ -89,7 +89,7 @@ def mobility(linkage: Linkage, unit: str = "") -> Mobility:
     mechanism has no further freedom. `unit` is the name of the unit of length, for messages. Raises ValueError where
     the assembled pose is open: see `Mechanism.close`.
     """
-    check_closed(linkage, unit, "mobility", "mobility()")
+    check_closed(linkage, unit, "mobility", "{}.mobility()")
     return _of_closed(linkage)
 
 

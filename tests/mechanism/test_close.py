@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+import jaxkin as jk
 from jaxkin.joints.pairs import revolute
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.mechanism import Mechanism
@@ -62,6 +63,27 @@ def test_a_closed_mechanism_stays_where_it_is():
         np.array_equal(one.frames_1, other.frames_1)
         for one, other in zip(found.mechanism.all_joints, planar_fourbar().all_joints, strict=True)
     )
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        "jk.limits({}, 'A')",
+        "jk.assembly_modes({}, drive)",
+        "jk.workspace({}, grid, 'coupler', (0, 0, 0))",
+        "{}.mobility()",
+        "{}.plan(['A'])",
+    ],
+)
+def test_what_is_advised_of_an_open_pose_can_be_called(call):
+    mechanism, drive = OPEN["four-bar, a gap of 4 mm"](), {"A": 0.3}
+    names = {"jk": jk, "mechanism": mechanism, "drive": drive, "grid": {"A": [0, 1], "D": [0, 1]}}
+    with pytest.raises(ValueError, match=r"not closed") as said:
+        eval(call.format("mechanism"), names)
+    advised = str(said.value).rpartition("write ")[2]
+    assert advised.startswith(call.partition("{")[0] + "mechanism.close().mechanism")
+    if "..." not in advised:
+        assert str(eval(advised, names))
 
 
 def test_the_pose_is_the_one_that_sweeps_begin_from():

@@ -34,6 +34,8 @@ REFUSED = {
     "jk.gear('A', 'B', '2')": "the ratio of 'A' must be one finite number, got '2'",
     "jk.relation([('A', 1.0)])": "the factors of a relation are given by name, as in {'A.phi': 2.0, 'B.phi': -1.0}",
     "jk.Mechanism.build(fixed=['ground'], joints=[hinge], couplings=['gear'])": "couplings are made by jk.gear",
+    "jk.Mechanism.build(fixed=['ground'], joints=[hinge], unit='inch')": "unit must be one of um, mm, cm, dm, m, km, "
+    "in, ft, or '' for metres, got 'inch'",
     "arm.sweep(angles)": "driven displacements are given by name, as in {'A': angles}, got array(",
     "arm.sweep(None)": "as in {'A': angles}, got None",
     "arm.stream(angles)": "as in {'A': angles}, got array(",
