@@ -80,6 +80,8 @@ def data_of(mechanism: Mechanism, measured: Any, sigma: Any, poses: int) -> Data
     given = by_name(measured, "measurements", "{'D': angles, jk.point('coupler', (1, 0, 0)): places}")
     if not given:
         raise ValueError("nothing was measured: give coordinates of joints, jk.point, jk.pose or jk.orientation")
+    if not poses:
+        raise ValueError("nothing was measured: the drive has no poses")
     kinds, values, weights = [], [], []
     for key, numbers in given.items():
         kind = _kind(mechanism, key)
@@ -94,6 +96,8 @@ def data_of(mechanism: Mechanism, measured: Any, sigma: Any, poses: int) -> Data
         kinds.append(kind)
         values.append(array)
         weights.append(np.broadcast_to(known.reshape(poses, -1), (poses, len(kind.lengths))).astype(float))
+    if not any(known.any() for known in weights):
+        raise ValueError("nothing was measured: all values are NaN, which stands for values that are missing")
     deviations = _deviations(kinds, sigma)
     scaled = tuple(known / row for known, row in zip(weights, deviations, strict=True))
     return Data(tuple(kinds), tuple(values), scaled)

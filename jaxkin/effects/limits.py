@@ -184,6 +184,8 @@ def _ranges(mechanism: Mechanism, given: Mapping[str, Sequence[float]]) -> dict[
             low, high = (float(end) for end in ends)
         except (TypeError, ValueError):
             raise ValueError(f"the range of {key!r} must be two numbers, as in (-1.0, 1.0), got {ends!r}") from None
+        if not low <= high:
+            raise ValueError(f"the range of {key!r} must rise, as in (-1.0, 1.0), got {ends!r}")
         found[place] = low, high
     for (number, k), (low, high) in found.items():
         joint = mechanism.all_joints[number]

@@ -221,6 +221,7 @@ POINT = jk.point("coupler", (60.0, 25.0, 0.0))
         ({"D": np.zeros(23)}, {"lengths": [CRANK]}, r"shape \(24,\), one a pose of the drive .* got shape \(23,\)"),
         ({"E": np.zeros(24)}, {"lengths": [CRANK]}, "there is no joint 'E'"),
         ({}, {"lengths": [CRANK]}, "nothing was measured"),
+        ({"D": np.full(24, np.nan)}, {"lengths": [CRANK]}, "nothing was measured: all values are NaN"),
         ({"D": np.zeros(24), POINT: np.zeros((24, 3))}, {"lengths": [CRANK]}, "say how exact either is"),
         ({"D": np.zeros(24)}, {"lengths": [CRANK], "markers": [POINT]}, "markers must be points that were measured"),
         ({"D": np.zeros(24), "B": np.zeros(24)}, {"lengths": [CRANK], "sigma": {"B": 1}}, "no standard deviation of D"),
@@ -239,6 +240,8 @@ def test_what_makes_no_sense_is_refused(measured, more, said):
 def test_a_start_that_does_not_close_and_data_that_tell_nothing():
     with pytest.raises(ValueError, match=r"does not close at \d+ of 24 measured poses, first at pose"):
         jk.calibrate(fourbar(100.0, 60.0, 80.0, 60.0), {"A": ANGLES}, {"D": np.zeros(24)}, lengths=[CRANK])
+    with pytest.raises(ValueError, match="nothing was measured: the drive has no poses"):
+        jk.calibrate(fourbar(*GIVEN), {"A": np.zeros(0)}, {"D": np.zeros(0)}, lengths=[CRANK])
     with pytest.raises(ValueError, match="they tell nothing about them"):
         jk.calibrate(arm(), {"A": np.zeros(3), "B": np.ones(3)}, {"A": np.zeros(3)}, lengths=[("a", "A", "B")])
     with pytest.raises(ValueError, match="outside of jit, vmap and grad"):

@@ -177,6 +177,8 @@ def test_what_has_no_limits_is_refused():
     mechanism = planar_fourbar(1.0)
     with pytest.raises(ValueError, match=r"the assembled pose, 0, is not in the range 1 to 2 of D.phi"):
         jk.limits(mechanism, "A", ranges={"D": (1.0, 2.0)})
+    with pytest.raises(ValueError, match=r"the range of 'D' must rise, as in \(-1.0, 1.0\), got \(0.5, -0.5\)"):
+        jk.limits(mechanism, "A", ranges={"D": (0.5, -0.5)})
     with pytest.raises(ValueError, match=r"must be two numbers, as in \(-1.0, 1.0\)"):
         jk.limits(mechanism, "A", ranges={"D": (1.0,)})
     with pytest.raises(ValueError, match="there is no joint 'AA'"):
