@@ -2,6 +2,7 @@
 
 from drawings import actuated as actuated
 from drawings import adjusted as adjusted
+from drawings import aligned as aligned
 from drawings import articulated as articulated
 from drawings import balanced as balanced
 from drawings import bodywork as bodywork
@@ -33,6 +34,7 @@ from drawings import office as office
 from drawings import operated as operated
 from drawings import outdoor as outdoor
 from drawings import pedalled as pedalled
+from drawings import pinched as pinched
 from drawings import pivoted as pivoted
 from drawings import powered as powered
 from drawings import pressed as pressed
@@ -45,6 +47,7 @@ from drawings import rolled as rolled
 from drawings import rolling as rolling
 from drawings import sharpened as sharpened
 from drawings import signalled as signalled
+from drawings import spun as spun
 from drawings import standing as standing
 from drawings import stayed as stayed
 from drawings import steered as steered
@@ -53,5 +56,6 @@ from drawings import swung as swung
 from drawings import threaded as threaded
 from drawings import turning as turning
 from drawings import vehicles as vehicles
+from drawings import wheeled as wheeled
 from drawings import workshop as workshop
 from drawings import wound as wound

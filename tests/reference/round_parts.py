@@ -10,7 +10,7 @@ import trimesh
 
 from jaxkin.assembly.assembly import Assembly
 from jaxkin.geometry.part import Face, Part, moved, scaled
-from jaxkin.geometry.surfaces import Cylinder, Plane
+from jaxkin.geometry.surfaces import Cone, Cylinder, Plane
 from jaxkin.joints.joint import Joint
 from jaxkin.mechanism.mechanism import Mechanism
 
@@ -30,6 +30,19 @@ def pin(radius: float, low: float, high: float, at=(0.0, 0.0)) -> list[tuple]:
     """Surfaces and triangles of a cylinder about an axis along z."""
     mesh = trimesh.creation.cylinder(radius, segment=[[*at, low], [*at, high]], sections=SECTIONS)
     return _faces(mesh, np.array([*at, 0.0]), [(radius, 1)], low, high)
+
+
+def cone(first: float, last: float, low: float, high: float, side: int, at=(0.0, 0.0)) -> list[tuple]:
+    """The surface and the triangles of a cone about an axis along z, of one radius at its low end and another at its
+    high one; a countersink with -1 as `side`."""
+    mesh = trimesh.creation.revolve([[first, low], [last, high]], sections=SECTIONS)
+    axis, slope = np.array([*at, 0.0]), (last - first) / (high - low)
+    triangles = mesh.triangles + axis
+    normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    outwards = np.sum(normals[:, :2] * (triangles.mean(axis=1) - axis)[:, :2], axis=1) > 0
+    triangles = np.where((outwards == (side > 0))[:, None, None], triangles, triangles[:, ::-1])
+    surface = Cone(axis + (low - first / slope) * Z, np.sign(slope) * Z, float(np.arctan(abs(slope))), side)
+    return [(surface, triangles)]
 
 
 def block(low: Iterable[float], high: Iterable[float]) -> list[tuple]:

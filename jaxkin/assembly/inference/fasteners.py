@@ -19,10 +19,14 @@ MAX_HEAD = 4.02
 """Farthest a fastener reaches from its axis, over its smallest radius: flanges, large washers and knobs of four radii
 are within, as rounded by files."""
 MAX_NUT = 3.0
-"""The same of parts with a hole only, nuts and thin rings: larger ones are plates with a bore."""
+"""The same of parts with a hole only, nuts and rings: larger ones are plates with a bore, or washers (`MAX_WASHER`)."""
+MAX_WASHER = 0.25
+"""Thickness of a large washer over its outer radius: those of ISO 7093 have 0.17 to 0.25."""
 MIN_THREADED = 0.2
 """Share of the length of a nut that its holes are deep, at least: stand-offs with a thread in both ends have a third, a
 post with a hole in its end less."""
+WASHER_ROUND = 0.95
+"""Roundness of a large washer seen along its axis, at least: triangles of few chords leave a circle as much."""
 MIN_ROUND = 0.84
 """Roundness of a screw seen along its axis, at least: a hexagon has 0.866."""
 MIN_PIN = 0.4
@@ -73,14 +77,18 @@ def _on_one_axis(own: Sequence[Bore], every: Sequence[Bore]) -> bool:
 
 
 def _slim(part: Part, own: Sequence[Bore]) -> bool:
-    corners = part.outermost - own[0].point
-    along = corners @ own[0].axis
-    away = np.linalg.norm(corners - np.outer(along, own[0].axis), axis=1).max()
-    least = min(bore.radius for bore in own)
+    away, least = away_from(part, own[0]), min(bore.radius for bore in own)
     if not all(bore.hole for bore in own):
-        return bool(away <= MAX_HEAD * least)
+        return away <= MAX_HEAD * least
+    thick = np.ptp(part.outermost @ own[0].axis)
+    is_washer = thick <= MAX_WASHER * away and _roundness(part, own[0]) > WASHER_ROUND
     deep = sum(high - low for low, high in merged(span for bore in own for span in bore.spans_along(own[0].axis)))
-    return bool(away <= MAX_NUT * least and deep >= MIN_THREADED * np.ptp(along))
+    return bool(away <= (MAX_HEAD if is_washer else MAX_NUT) * least and deep >= MIN_THREADED * thick)
+
+
+def away_from(part: Part, about: Bore) -> float:
+    """Measure how far a part reaches from the axis of a bore."""
+    return float(np.linalg.norm(np.cross(part.outermost - about.point, about.axis), axis=1).max())
 
 
 def _is_mostly_pin(part: Part, own: Sequence[Bore]) -> bool:
@@ -89,12 +97,16 @@ def _is_mostly_pin(part: Part, own: Sequence[Bore]) -> bool:
     pins = [bore for bore in own if not bore.hole]
     if not pins:
         return True
-    axis = pins[0].axis
-    x = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis))])
-    x /= np.linalg.norm(x)
-    outline = (part.outermost - pins[0].point) @ np.column_stack([x, np.cross(axis, x)])
     pinned = sum(2 * np.pi * bore.radius**2 * bore.half for bore in pins)
-    return roundness(outline, np.zeros(2)) > MIN_ROUND or pinned > MIN_PIN * part.volume
+    return _roundness(part, pins[0]) > MIN_ROUND or pinned > MIN_PIN * part.volume
+
+
+def _roundness(part: Part, about: Bore) -> float:
+    """Measure how round the outline of a part is, seen along an axis: see `roundness`."""
+    x = np.cross(about.axis, np.eye(3)[np.argmin(np.abs(about.axis))])
+    x /= np.linalg.norm(x)
+    outline = (part.outermost - about.point) @ np.column_stack([x, np.cross(about.axis, x)])
+    return roundness(outline, np.zeros(2))
 
 
 @dataclass(frozen=True, eq=False)

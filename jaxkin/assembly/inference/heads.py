@@ -11,6 +11,7 @@ from jaxkin.assembly.inference.fasteners import MAX_EXPOSED, Stack
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.stop_faces import ACROSS, WIDER, stands_across
 from jaxkin.contacts.contact import Contact
+from jaxkin.geometry.surfaces import Cone
 from jaxkin.joints.evidence import EvidenceKind
 
 MAX_HEAD_GAP = 1.0
@@ -22,6 +23,18 @@ def is_head_on_tube(known: Known, contact: Contact) -> bool:
     through."""
     pairs = [pair for pair in known.axes if {*pair.parts} == {*contact.parts} and not pair.virtual]
     return any(stands_across(surface, pair.one.axis) for surface in contact.surfaces for pair in pairs)
+
+
+def is_countersunk(known: Known, contact: Contact) -> bool:
+    """Tell whether a contact is that of the conical head of a pin with the countersink of the hole that the pin is in:
+    about the axis of the pin, and wider than it, other than the point of a needle in its seat."""
+    cone = contact.surfaces[0]
+    if not isinstance(cone, Cone) or not contact.contact_state.is_fit:
+        return False
+    ends = np.array(known.shared_span(contact, cone.axis)) - cone.apex @ cone.axis
+    widest = np.tan(cone.half_angle) * np.abs(ends).max()
+    pins = [pair.one for pair in known.axes if {*pair.parts} == {*contact.parts} and not pair.virtual]
+    return any(abs(pin.axis @ cone.axis) > np.cos(ACROSS) and widest > WIDER * pin.radius for pin in pins)
 
 
 def is_headed(known: Known, stack: Stack) -> bool:

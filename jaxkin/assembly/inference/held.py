@@ -9,7 +9,7 @@ import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis, engaged
 from jaxkin.assembly.inference.bores import Bore
-from jaxkin.assembly.inference.fasteners import Stack, bolted, patterns
+from jaxkin.assembly.inference.fasteners import MAX_NUT, Stack, away_from, bolted, patterns
 from jaxkin.assembly.inference.heads import goes_through, is_exposed, is_headed
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
@@ -139,7 +139,8 @@ def _holder(known: Known, stack: Stack, body: Mapping[str, str], slides: bool) -
                 if slides and _is_trapped(known, pin.part, hole):
                     traps.add(owner)
     if not reach:
-        return (stack.held[0] if stack.held else None), "only"
+        others = [part for part in stack.held if part not in known.closed] or stack.held  # either ring may hold it
+        return (others[0] if others else None), "only"
     ends = {
         owner: (min(end[0] for end in some), max(end[1] for end in some), some[0][2]) for owner, some in reach.items()
     }
@@ -240,8 +241,8 @@ def _is_trapped(known: Known, pin: str, hole: Bore) -> bool:
 
 
 def rollers(known: Known, fastening: Collection[str]) -> set[str]:
-    """Find the round parts on a pin that lie flat on nothing, and are long or have much play: rollers and planets, no
-    nuts or washers."""
+    """Find the round parts on a pin that lie flat on nothing, and are long, wide, or have much play: rollers, planets
+    and cutting wheels, no nuts or washers."""
     lying = {part for each in known.contacts if each.contact_state.is_flat for part in each.parts}
     result = set()
     for pair in known.axes:
@@ -250,7 +251,8 @@ def rollers(known: Known, fastening: Collection[str]) -> set[str]:
             continue
         own, half = known.bores[name], pair.other.half
         long = half >= LONG * radius / 2 and any(not bore.hole for bore in own) and is_round(known, name, own)
-        if long or (half >= LOOSE * radius / 2 and pair.clearance > MIN_LOOSE * radius):
+        wide = away_from(known.solids[name], pair.other) > MAX_NUT * radius
+        if long or wide or (half >= LOOSE * radius / 2 and pair.clearance > MIN_LOOSE * radius):
             result.add(name)
     return result
 

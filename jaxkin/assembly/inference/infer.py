@@ -21,7 +21,7 @@ from jaxkin.assembly.inference.fasteners import fasteners, stacks
 from jaxkin.assembly.inference.feathers import feathers
 from jaxkin.assembly.inference.fittings import screwed_fittings
 from jaxkin.assembly.inference.floating import floating
-from jaxkin.assembly.inference.heads import is_head_on_tube
+from jaxkin.assembly.inference.heads import is_countersunk, is_head_on_tube
 from jaxkin.assembly.inference.held import (
     attached_fasteners,
     bolted_bodies,
@@ -40,6 +40,7 @@ from jaxkin.assembly.inference.motors import motor_shafts
 from jaxkin.assembly.inference.on_rings import clamped_on_rings
 from jaxkin.assembly.inference.one_screw import clamped_by_one_screw
 from jaxkin.assembly.inference.pinned_slides import pinned_slides
+from jaxkin.assembly.inference.pressed_bars import pressed_bars
 from jaxkin.assembly.inference.retaining_rings import retaining_rings
 from jaxkin.assembly.inference.rod_end_bolts import bolted_balls
 from jaxkin.assembly.inference.screwed import screwed_bodies, screwed_in
@@ -130,7 +131,7 @@ def infer(
     known.take(locked_threads(known, fastening))
     body = known.body
     others = [each for each in contacts if not (each.contact_state.is_flat or each.contact_state.is_pin)]
-    others = [each for each in others if not is_head_on_tube(known, each)]
+    others = [each for each in others if not (is_head_on_tube(known, each) or is_countersunk(known, each))]
     separate = [each.parts for each in others if len({body[part] for part in each.parts}) > 1]
     fastening -= {*fixed, *(part for parts in separate for part in parts)}
 
@@ -152,6 +153,7 @@ def infer(
     while known.take(bolted_bodies(known, every)):
         pass
     known.take(attached_fasteners(known, every))
+    known.take(pressed_bars(known, fastening))
     known.take(empty_nuts(known))
     known.take(screwed_bodies(known, every))
     known.take(clamped_by_one_screw(known, every))
@@ -170,7 +172,7 @@ def infer(
     others = hinges(known, fastening)
     joined = [*turning, *(each for each in others if {body[part] for part in each.inference.parts} not in borne)]
     guided = guided_on_faces(known)
-    joined += [*set_on_pins(known, joined), *guided]
+    joined += [*set_on_pins(known, joined, guided), *guided]
     known.take(floating(known, joined))
     known.take([each.inference for each in joined if not each.replaces_slide and each not in turning])
     known.take(loose_slides(known))

@@ -18,19 +18,24 @@ from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.assembly.inference.stopped_joint import StoppedJoint
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
+from jaxkin.joints.kinds import JointKind
 from jaxkin.topology.components import connected
 
 MAX_BEARING_OFFSET = 0.02
 """Distance of the axis of a bearing from that of its shaft, over the radius of the shaft, at most."""
 
 
-def set_on_pins(known: Known, joined: Sequence[StoppedJoint]) -> list[StoppedJoint]:
+def set_on_pins(
+    known: Known, joined: Sequence[StoppedJoint], guided: Sequence[StoppedJoint] = ()
+) -> list[StoppedJoint]:
     """Find bodies that do not move on the pin that they fit exactly, though exact contacts let them slide.
 
-    What is `joined` by a hinge already is left to that.
+    What is `joined` by a hinge already is left to that, and what is `guided` along the pin by faces of a third body
+    slides there, as on a lead screw.
     """
     body, result = known.body, []
     hinged = {frozenset(body[part] for part in each.inference.parts) for each in joined}
+    turning = [*known.found, *(each.inference for each in joined)]
     for line in lines(known):
         pair = line.first
         if pair.virtual or not any(line.pins) or line.owners in hinged:
@@ -41,10 +46,10 @@ def set_on_pins(known: Known, joined: Sequence[StoppedJoint]) -> list[StoppedJoi
             )
             text += f" of a radius of {pair.other.radius:.4g}: it would jam on a slide"
             result.append(_held(known, pair, text, ("length", length), Stop.SHORT))
-        elif other := _turning(known, line):
+        elif other := _turning(known, line, turning):
             text = f"it fits the shaft of {pair.one.part!r} exactly, which turns in {other!r}: it turns with it"
             result.append(_held(known, pair, text, ("clearance", pair.clearance), Stop.TIGHT))
-        elif all(line.pins) and (play := _looser(known, pair)):
+        elif all(line.pins) and not _is_guided(known, pair, guided) and (play := _looser(known, pair)):
             text = f"it fits the pin of {pair.one.part!r} exactly, on which others have a play of {play:.2g}"
             result.append(_held(known, pair, text, ("play", play), Stop.TIGHT))
     return result
@@ -74,18 +79,32 @@ def _jams(known: Known, line: Line) -> float | None:
     return guided if guided < MIN_GUIDED * pair.other.radius else None
 
 
-def _turning(known: Known, line: Line) -> str | None:
-    """Find the part in which a shaft turns, by a bearing on the axis of a line, where nothing but the shaft holds the
-    body on it, which fits it exactly.
+def _is_guided(known: Known, pair: CommonAxis, guided: Sequence[StoppedJoint]) -> bool:
+    """Tell whether faces of a third body guide what is on a pin along it."""
+    body = known.body
+    owner, hub = body[pair.one.part], body[pair.other.part]
+    for each in guided:
+        owners = {body[part] for part in each.inference.parts}
+        if hub in owners and owner not in owners and each.inference.joint is not None:
+            axis = np.asarray(each.inference.joint.frames_1, float)[0, :3, 2]
+            if np.linalg.norm(np.cross(axis, pair.one.axis)) < ACROSS:
+                return True
+    return False
 
-    A crank or a wheel goes round with its shaft. A rod on a crank, and a nut on a lead screw, are guided by others.
+
+def _turning(known: Known, line: Line, found: Sequence[Inference]) -> str | None:
+    """Find the part in which a shaft turns, by a joint that was `found` on the axis of a line, where nothing but the
+    shaft holds the body on it, which fits it exactly.
+
+    A crank, a wheel or a tyre goes round with what it is on. A rod on a crank, and a nut on a lead screw, are guided by
+    others.
     """
     pair, body = line.first, known.body
     shaft, hub = body[pair.one.part], body[pair.other.part]
     if abs(pair.clearance) > SAME_FIT * pair.other.radius or pair.other.part in known.sleeves:
         return None
-    for each in known.found:
-        if each.joint is None or each.evidence.kind is not EvidenceKind.BEARING:
+    for each in found:
+        if each.joint is None or each.joint.kind is not JointKind.REVOLUTE:
             continue
         housing = next((part for part in each.parts if body[part] != shaft), None)
         frame = np.asarray(each.joint.frames_1, float)[0]
