@@ -18,8 +18,8 @@ MAX_INTERFERENCE = 0.1
 """The same of pins that are thicker than their holes. Of 92 such pins in the exports tried, 63 are within 0.1 of the
 radius; thicker ones are threads (`CommonAxis.threaded`)."""
 MAX_THREAD = 0.5
-"""The same of screws in holes that are drawn as they are drilled for the thread: M3 to M10 have 0.17 to 0.21, M1.6 0.28,
-and screws for wood 0.25 to 0.5."""
+"""The same of screws in holes that are drawn as they are drilled for the thread: M3 to M10 have 0.17 to 0.21, M1.6
+0.28, and screws for wood 0.25 to 0.5."""
 EQUAL_BORES = 0.1
 """Radii of two bores without a pin that are one axis differ by so much at most, over the larger one."""
 MAX_TAPPED = 0.35
