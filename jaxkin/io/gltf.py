@@ -15,7 +15,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from jaxkin.geometry.part import Part
-from jaxkin.geometry.units import METRES, check_unit
+from jaxkin.geometry.units import METRES
 from jaxkin.view.drawing import drawn_parts
 
 if TYPE_CHECKING:
@@ -132,7 +132,7 @@ def _material(part: Part) -> dict[str, Any]:
 def _root_matrix(unit: str, middle: Float[np.ndarray, "3"]) -> list[float]:
     """Moves the middle of the mechanism, which the nodes count from, to its place; turns z up; goes to metres."""
     root = np.eye(4)
-    root[:3, :3] = _UP * METRES[check_unit(unit)]
+    root[:3, :3] = _UP * METRES[unit]
     root[:3, 3] = root[:3, :3] @ middle
     return root.T.ravel().tolist()  # glTF goes down the columns
 

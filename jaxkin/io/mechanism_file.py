@@ -10,6 +10,7 @@ import os
 from pathlib import Path
 
 from jaxkin._files import check_file, whole
+from jaxkin.geometry.units import check_unit
 from jaxkin.linkage.record import as_record, from_record
 from jaxkin.mechanism.mechanism import Mechanism
 
@@ -57,7 +58,7 @@ def read_mechanism(path: str | os.PathLike[str]) -> Mechanism:
             raise ValueError(f"version {record['version']}, and this jaxkin reads up to {_VERSION}: update jaxkin")
         return Mechanism(
             from_record(record["linkage"]),
-            record["unit"],
+            check_unit(record["unit"]),
             history=tuple(record["history"]),
             alignment=tuple(record["alignment"]),
             motors=tuple(record["motors"]),
