@@ -53,7 +53,7 @@ def _into(known: Known, contact: Contact, pair: CommonAxis) -> Vector | None:
     if not isinstance(plane, Plane) or np.linalg.norm(np.cross(plane.normal, pin.axis)) > ACROSS:
         return None
     face = contact.faces[contact.parts.index(pin.part)]
-    (own,) = (each for each in known.solids[pin.part].faces if each.name == face)
+    own = next(each for each in known.solids[pin.part].faces if each.name == face)
     away = np.linalg.norm(np.cross(own.triangles.reshape(-1, 3) - pin.point, pin.axis), axis=1)
     side = np.sign((plane.point - pin.point) @ pin.axis)
     return side * pin.axis if away.max() <= WIDER * pin.radius else None
