@@ -83,6 +83,8 @@ class _Iterate(NamedTuple):
     trial: State
     delta: Float[Array, "columns poses"]
     """The step from `state` to `trial`."""
+    slope: Float[Array, " poses"]
+    """Slope of the merit along that step, at its beginning."""
 
 
 def damping_floor(dtype) -> float:
@@ -116,11 +118,9 @@ def levenberg_marquardt(
         taken = better | first
         chosen_state, chosen = select_poses(taken, (iterate.trial, trial), (iterate.state, iterate.closure))
         jacobian = free_jacobian(system, chosen)
-        # J^T r is the gradient of the merit; of a refused step both slopes are those of its beginning
-        slope = jnp.sum(_gradient(jacobian, chosen) * iterate.delta, axis=0)
-        begun = jnp.sum(_gradient(free_jacobian(system, iterate.closure), iterate.closure) * iterate.delta, axis=0)
-        change = jnp.where(slope > -OVERSHOT * begun, AFTER_OVERSHOT, AFTER_GAIN)
-        change = jnp.where(better, change, AFTER_REFUSAL)
+        gradient = _gradient(jacobian, chosen)
+        overshot = jnp.sum(gradient * iterate.delta, axis=0) > -OVERSHOT * iterate.slope
+        change = jnp.where(better, jnp.where(overshot, AFTER_OVERSHOT, AFTER_GAIN), AFTER_REFUSAL)
         factor = jnp.where(first, iterate.factor, jnp.clip(change * iterate.factor, LEAST_FACTOR, MOST_FACTOR))
         scale = jnp.maximum(1.0, LEAST_MEAN_SQUARE / (_mean_square(jacobian) + 1e-300))
         damping = factor * scale * jnp.minimum(2 * chosen.merit, 1.0) + damping_floor(dtype)
@@ -143,8 +143,8 @@ def levenberg_marquardt(
             | ~jnp.isfinite(chosen.merit)
             | (iterate.count == max_steps)
         )
-        trial = retract(system, chosen_state, delta)
-        return _Iterate(iterate.count + 1, chosen_state, chosen, factor, done, trial, delta)
+        ahead, slope = retract(system, chosen_state, delta), jnp.sum(gradient * delta, axis=0)
+        return _Iterate(iterate.count + 1, chosen_state, chosen, factor, done, ahead, delta, slope)
 
     poses = state.x.shape[-1]
     nothing = Closure(
@@ -154,8 +154,8 @@ def levenberg_marquardt(
         jnp.full(poses, jnp.inf, dtype),
     )
     no = jnp.zeros(poses, bool)
-    still = jnp.zeros_like(state.x)
-    start = _Iterate(jnp.asarray(0), state, nothing, jnp.ones(poses, dtype), no, state, still)
+    still, level = jnp.zeros_like(state.x), jnp.zeros(poses, dtype)
+    start = _Iterate(jnp.asarray(0), state, nothing, jnp.ones(poses, dtype), no, state, still, level)
     last = lax.while_loop(running, step, start)
     stationary = _range_cosine(system, last.closure, free_jacobian(system, last.closure)) < STATIONARY_COSINE
     return LevenbergMarquardtResult(last.state, last.closure, last.closure.residual_norm, stationary)
