@@ -130,9 +130,9 @@ def levenberg_marquardt(
         # a refused step: shorter than rounding, or from a residual that counts as closed
         closed = chosen.merit < 0.5 * (CLOSED_ROUNDINGS * eps) ** 2
         exhausted = ~taken & ((length < SHORTEST_STEP_ROUNDINGS * eps) | closed)
-        # the merit stagnates although the damping is small: the loops cannot close
+        # the merit stagnates although the damping is small, and not from side to side of a valley: loops cannot close
         stagnates = trial.merit > (1 - STAGNANT_DECREASE) * iterate.closure.merit
-        least = better & (iterate.factor <= SMALL_FACTOR) & stagnates
+        least = better & ~overshot & (iterate.factor <= SMALL_FACTOR) & stagnates
         done = (
             iterate.done
             | (chosen.residual_norm <= target_residual)
