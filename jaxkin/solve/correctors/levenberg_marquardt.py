@@ -132,14 +132,16 @@ def levenberg_marquardt(
         exhausted = ~taken & ((length < SHORTEST_STEP_ROUNDINGS * eps) | closed)
         # the merit stagnates although the damping is small, and not from side to side of a valley: loops cannot close
         stagnates = trial.merit > (1 - STAGNANT_DECREASE) * iterate.closure.merit
-        least = better & ~overshot & (iterate.factor <= SMALL_FACTOR) & stagnates
+        cosine = _range_cosine(system, chosen, jacobian)
+        settled = ~overshot | (cosine < STATIONARY_COSINE)
+        least = better & settled & (iterate.factor <= SMALL_FACTOR) & stagnates
         done = (
             iterate.done
             | (chosen.residual_norm <= target_residual)
             | (chosen.merit < 0.5 * (NOTHING_LEFT_ROUNDINGS * eps) ** 2)
             | exhausted
             | least
-            | (_range_cosine(system, chosen, jacobian) < SETTLED_COSINE) & (chosen.residual_norm > OPEN_RESIDUAL)
+            | (cosine < SETTLED_COSINE) & (chosen.residual_norm > OPEN_RESIDUAL)
             | ~jnp.isfinite(chosen.merit)
             | (iterate.count == max_steps)
         )
