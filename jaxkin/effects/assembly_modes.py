@@ -172,7 +172,7 @@ class AssemblyModes:
 
     def save(self, path: str | Path) -> Path:
         """Write the displacements of all joints as comma-separated values, a row a mode; returns the path."""
-        return save_displacements(self.motion, Path(path))
+        return save_displacements(self.motion.mechanism.all_joints, self.motion.displacements, Path(path))
 
 
 def assembly_modes(

@@ -91,7 +91,7 @@ class Limits:
 
     def save(self, path: str | Path) -> Path:
         """Write the displacements of all joints at the limits and as assembled as comma-separated values."""
-        return save_displacements(self.motion, Path(path))
+        return save_displacements(self.motion.mechanism.all_joints, self.motion.displacements, Path(path))
 
     def _value(self, value: float) -> str:
         return f"{value:.9g} {self.unit}".rstrip() if np.isfinite(value) else f"{value}"

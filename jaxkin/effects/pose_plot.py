@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from jaxtyping import Float
 
 from jaxkin._files import save_figure, whole
-
-if TYPE_CHECKING:
-    from jaxkin.mechanism.motion import Motion
+from jaxkin.joints.joint import Joint
 
 NAMED = 12
 """Lines of one axes that have a colour, a style and a name: more are not told apart."""
@@ -100,8 +98,8 @@ def save_rows(names: Sequence[str], rows: Float[np.ndarray, "rows poses"], path:
     return path
 
 
-def save_displacements(motion: Motion, path: Path) -> Path:
-    """Write the displacements of all joints of a motion by `save_rows`, a column a coordinate; returns the path."""
-    names = [f"{joint.name}.{name}" for joint in motion.mechanism.all_joints for name in joint.coordinates]
-    rows = np.concatenate([np.asarray(each) for each in motion.displacements], axis=1)
+def save_displacements(joints: Sequence[Joint], displacements: Sequence[Float[Any, "poses _"]], path: Path) -> Path:
+    """Write the displacements of all joints by `save_rows`, a column a coordinate; returns the path."""
+    names = [f"{joint.name}.{name}" for joint in joints for name in joint.coordinates]
+    rows = np.concatenate([np.asarray(each) for each in displacements], axis=1)
     return save_rows(names, rows.T, path)

@@ -1,5 +1,7 @@
 """Units of length by name."""
 
+from jaxkin._arguments import text
+
 METRES = {
     "um": 1e-6,
     "mm": 1e-3,
@@ -16,9 +18,7 @@ METRES = {
 
 def check_unit(unit: str) -> str:
     """Return the name of a unit of length, "" where none was said; raise ValueError for others than `METRES`."""
-    if not isinstance(unit, str):
-        raise ValueError(f"unit must be text, got {unit!r}")
-    if unit not in METRES:
+    if text(unit, "unit") not in METRES:
         raise ValueError(f"unit must be one of {', '.join(filter(None, METRES))}, or '' for metres, got {unit!r}")
     return unit
 

@@ -77,6 +77,7 @@ def _on_one_axis(own: Sequence[Bore], every: Sequence[Bore]) -> bool:
 
 
 def _slim(part: Part, own: Sequence[Bore]) -> bool:
+    """Tell whether a part reaches no farther from its axis than heads, nuts and washers do."""
     away, least = away_from(part, own[0]), min(bore.radius for bore in own)
     if not all(bore.hole for bore in own):
         return away <= MAX_HEAD * least

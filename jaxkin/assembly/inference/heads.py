@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from jaxkin.assembly.inference.axes import apart, shared_length
+from jaxkin.assembly.inference.axes import MAX_OFFSET, apart, shared_length
 from jaxkin.assembly.inference.bores import Bore, merged, shared
 from jaxkin.assembly.inference.fasteners import MAX_EXPOSED, Stack
 from jaxkin.assembly.inference.known import Known
@@ -34,7 +34,13 @@ def is_countersunk(known: Known, contact: Contact) -> bool:
     ends = np.array(known.shared_span(contact, cone.axis)) - cone.apex @ cone.axis
     widest = np.tan(cone.half_angle) * np.abs(ends).max()
     pins = [pair.one for pair in known.axes if {*pair.parts} == {*contact.parts} and not pair.virtual]
-    return any(abs(pin.axis @ cone.axis) > np.cos(ACROSS) and widest > WIDER * pin.radius for pin in pins)
+    coaxial = [
+        pin
+        for pin in pins
+        if np.linalg.norm(np.cross(cone.axis, pin.axis)) < ACROSS
+        and np.linalg.norm(np.cross(cone.apex - pin.point, pin.axis)) < MAX_OFFSET * pin.radius
+    ]
+    return any(widest > WIDER * pin.radius for pin in coaxial)
 
 
 def is_headed(known: Known, stack: Stack) -> bool:

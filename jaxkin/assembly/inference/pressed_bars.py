@@ -6,15 +6,13 @@ from collections.abc import Collection
 
 import numpy as np
 
-from jaxkin.assembly.inference.axes import CommonAxis
+from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.stop_faces import ACROSS, WIDER
+from jaxkin.assembly.inference.stop_faces import ACROSS, WIDER, stands_across
 from jaxkin.assembly.inference.walls import MAX_SIDE_PLAY, facing
-from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector
-from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 
@@ -28,17 +26,14 @@ def pressed_bars(known: Known, fastening: Collection[str]) -> list[Inference]:
     for pair in known.axes:
         if not pair.threaded or pair.one.part not in fastening:
             continue
-        for contact in known.contacts:
-            if pair.one.part not in contact.parts or not contact.contact_state.is_flat:
+        screw, host = pair.parts
+        for bar in known.parts_flat_on(screw, pair.one.axis):
+            into = _into(known, bar, pair.one)
+            if into is None or body[bar] in (body[host], body[screw]):
                 continue
-            bar = contact.parts[contact.parts[0] == pair.one.part]
-            into = _into(known, contact, pair)
-            if into is None or body[bar] in (body[pair.other.part], body[pair.one.part]):
-                continue
-            behind = [part for part in known.parts if body[part.name] == body[pair.other.part]]
+            behind = [part for part in known.parts if body[part.name] == body[host]]
             gap = _gap_behind(known.solids[bar], behind, into)
             if gap is not None:
-                screw, host = pair.parts
                 text = f"the tip of {screw!r} presses {bar!r} against {host!r}, with a play of {gap:.2g} behind it"
                 sizes = (("radius", pair.one.radius), ("play", gap))
                 parts = known.in_order((screw, bar))
@@ -46,17 +41,18 @@ def pressed_bars(known: Known, fastening: Collection[str]) -> list[Inference]:
     return result
 
 
-def _into(known: Known, contact: Contact, pair: CommonAxis) -> Vector | None:
-    """Find the direction in which the tip of a screw presses by a contact; None where the contact is not of its tip,
-    but of its head."""
-    plane, pin = contact.surfaces[0], pair.one
-    if not isinstance(plane, Plane) or np.linalg.norm(np.cross(plane.normal, pin.axis)) > ACROSS:
-        return None
-    face = contact.faces[contact.parts.index(pin.part)]
-    own = next(each for each in known.solids[pin.part].faces if each.name == face)
-    away = np.linalg.norm(np.cross(own.triangles.reshape(-1, 3) - pin.point, pin.axis), axis=1)
-    side = np.sign((plane.point - pin.point) @ pin.axis)
-    return side * pin.axis if away.max() <= WIDER * pin.radius else None
+def _into(known: Known, bar: str, pin: Bore) -> Vector | None:
+    """Find the direction in which the tip of a screw presses on a part that lies flat on it; None where that lies on
+    nothing but its head, which is wider than its pin."""
+    for contact in known.between[frozenset((pin.part, bar))]:
+        if not stands_across(contact.surfaces[0], pin.axis):
+            continue
+        face = contact.faces[contact.parts.index(pin.part)]
+        own = next(each for each in known.solids[pin.part].faces if each.name == face)
+        offsets = own.triangles.reshape(-1, 3) - pin.point
+        if np.linalg.norm(np.cross(offsets, pin.axis), axis=1).max() <= WIDER * pin.radius:
+            return np.sign(offsets[0] @ pin.axis) * pin.axis
+    return None
 
 
 def _gap_behind(bar: Part, others: list[Part], into: Vector) -> float | None:

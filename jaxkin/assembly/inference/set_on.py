@@ -49,7 +49,7 @@ def set_on_pins(
         elif other := _turning(known, line, turning):
             text = f"it fits the shaft of {pair.one.part!r} exactly, which turns in {other!r}: it turns with it"
             result.append(_held(known, pair, text, ("clearance", pair.clearance), Stop.TIGHT))
-        elif all(line.pins) and not _is_guided(known, pair, guided) and (play := _looser(known, pair)):
+        elif all(line.pins) and not _slides_along(known, pair, guided) and (play := _looser(known, pair)):
             text = f"it fits the pin of {pair.one.part!r} exactly, on which others have a play of {play:.2g}"
             result.append(_held(known, pair, text, ("play", play), Stop.TIGHT))
     return result
@@ -79,7 +79,7 @@ def _jams(known: Known, line: Line) -> float | None:
     return guided if guided < MIN_GUIDED * pair.other.radius else None
 
 
-def _is_guided(known: Known, pair: CommonAxis, guided: Sequence[StoppedJoint]) -> bool:
+def _slides_along(known: Known, pair: CommonAxis, guided: Sequence[StoppedJoint]) -> bool:
     """Tell whether faces of a third body guide what is on a pin along it."""
     body = known.body
     owner, hub = body[pair.one.part], body[pair.other.part]

@@ -146,17 +146,14 @@ def equilibrium(
     if traced(mechanism, dict(drive), masses, applied):
         raise ValueError("equilibria are found on the host: call jk.equilibrium outside of jit, vmap and grad")
     given = {key: np.unique(numbers(some, f"the range of {key!r}").ravel()) for key, some in drive.items()}
-    ranges = [key for key, some in given.items() if len(some) > 1] or [*given][:1]
-    if len(ranges) != 1:
+    if not given:
+        raise ValueError("an equilibrium is found along a driven coordinate: give {'A': np.linspace(0, 2 * np.pi, 73)}")
+    key, *more = [key for key, some in given.items() if len(some) > 1] or [*given][:1]
+    if more:
         raise ValueError(
-            f"an equilibrium is found along one driven coordinate, got ranges of {len(ranges)}: "
-            f"{', '.join(map(repr, ranges))}; hold the others with one displacement each, {{{ranges[0]!r}: "
-            f"np.linspace(0, 2 * np.pi, 73), {ranges[1]!r}: 0.0}}"
-            if ranges
-            else "an equilibrium is found along a driven coordinate, got none; give a range, "
-            "{'A': np.linspace(0, 2 * np.pi, 73)}"
+            f"an equilibrium is found along one driven coordinate, got ranges of {1 + len(more)}; hold the others with "
+            f"one displacement each, as in {{{key!r}: np.linspace(0, 2 * np.pi, 73), {more[0]!r}: 0.0}}"
         )
-    (key,) = ranges
     inputs = given.pop(key)
     if len(inputs) < 2 or not np.isfinite(inputs).all():
         raise ValueError(f"the range of {key!r} must be two displacements or more, as np.linspace(0, 2 * np.pi, 73)")
