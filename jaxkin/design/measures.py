@@ -16,6 +16,7 @@ from jaxkin._names import listed, nearest
 from jaxkin._traced import traced
 from jaxkin.design import given
 from jaxkin.dimensions import lengths
+from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.linkage.coordinates import coordinate
 
 if TYPE_CHECKING:
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
 
 STATIC = {"static": True}
 """Of a field that is no number: a program is compiled anew for another value."""
+ON_AXIS = 1e-9
+"""Distance of a point from an axis, over its distance from the joint of the axis, up to which it is on the axis."""
 
 
 @jax.tree_util.register_dataclass
@@ -63,7 +66,9 @@ def transmission_angle(motion: Motion, joint: str, ends: tuple[str, str]) -> Flo
     """Measure the angle at a joint between its two links, 0 to pi, in every pose.
 
     `ends` names the joint at the other end of either link: in a four-bar with coupler B C and rocker C D it is
-    `transmission_angle(motion, "C", ("B", "D"))`. A right angle transmits best; at 0 and pi the linkage jams.
+    `transmission_angle(motion, "C", ("B", "D"))`. A right angle transmits best; at 0 and pi the linkage jams. At a
+    hinge the links are seen along its axis: heights of the joints in a planar linkage do not count, and of a spherical
+    one it is the angle between the planes of the two links. At a ball it is the angle in space.
     """
     ends = given.ends(ends, "transmission angle: ends")
     corner, links, held = joint_path(motion, joint), [], set()
@@ -77,6 +82,16 @@ def transmission_angle(motion: Motion, joint: str, ends: tuple[str, str]) -> Flo
         links.append(joint_path(motion, end) - corner)
     if joint in ends or len(held) < 2:
         raise ValueError(f"{ends[0]!r} and {ends[1]!r} must be two other joints, one on each of the {said}")
+    axis = _axis_of_turn(motion, joint)
+    if axis is not None:
+        for number, (end, link) in enumerate(zip(ends, links, strict=True)):
+            across = link - jnp.sum(link * axis, axis=-1, keepdims=True) * axis
+            if not traced(across) and np.all(np.linalg.norm(across, axis=-1) <= ON_AXIS * np.abs(link).max()):
+                raise ValueError(
+                    f"the point of joint {end!r} is on the axis of {joint!r}: its link has no direction there; give "
+                    f"{end!r} another point of its axis, or name another joint of the same link"
+                )
+            links[number] = across
     cross = jnp.linalg.norm(jnp.cross(*links) + 1e-300, axis=-1)
     return jnp.arctan2(cross, jnp.sum(links[0] * links[1], axis=-1))
 
@@ -98,6 +113,22 @@ def joint_path(motion: Motion, name: str) -> Float[Array, "poses 3"]:
     """Find where the origin of a joint is in every pose."""
     joint = motion.mechanism.joints[known_joint(motion, name)]
     return motion.points(joint.parts[0], jnp.asarray(joint.frames_1)[0, :3, 3])
+
+
+def _axis_of_turn(motion: Motion, name: str) -> Float[Array, "poses 3"] | None:
+    """Find the unit vector of the one axis about which the parts of a joint turn; None for none or several."""
+    joint = motion.mechanism.joints[name]
+    turns = {
+        element.axis
+        for movement in joint.movements
+        for element in MOVEMENTS[movement].elements
+        if element.kind != "translate"
+    }
+    if len(joint.movements) != 1 or len(turns) != 1:
+        return None
+    frame = jnp.asarray(joint.frames_1)[0]
+    tip = frame[:3, 3] + frame[:3, turns.pop()]
+    return motion.points(joint.parts[0], tip) - motion.points(joint.parts[0], frame[:3, 3])
 
 
 def joint_coordinate(motion: Motion, name: str) -> Float[Array, " poses"]:

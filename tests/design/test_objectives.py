@@ -10,7 +10,7 @@ import pytest
 import jaxkin as jk
 from jaxkin import design
 from jaxkin.design.penalty import closure_gaps
-from reference import planar
+from reference import planar, spatial
 from reference.mechanisms import planar_fourbar, slider_crank
 
 TURN = np.linspace(0.0, 2 * np.pi, 30)
@@ -72,6 +72,45 @@ def test_transmission_angle_by_the_law_of_cosines(motion):
     assert design.transmission("C", ("B", "D"), beyond=0.5)(motion) == pytest.approx(np.sum(excess**2))
     within = design.transmission_within("C", ("B", "D"), 0.6)(motion, {})
     assert (np.min(within) >= 0) == (expected.min() >= 0.6)
+
+
+@pytest.mark.long
+def test_heights_of_hinges_do_not_change_the_transmission_angle(motion):
+    """A linkage is drawn with its links on layers, and joints read from solids lie at their heights."""
+    z, at = (0, 0, 1), planar.fourbar(np.array([START]))
+    pins = [(0, 0, 0), (*at.crank_pin[0], 35.0), (*at.rocker_pin[0], -20.0), (100.0, 0, 50.0)]
+    bars = [("ground", "crank"), ("crank", "coupler"), ("coupler", "rocker"), ("ground", "rocker")]
+    joints = [jk.revolute(name, *bar, point=pin, axis=z) for name, bar, pin in zip("ABCD", bars, pins, strict=True)]
+    layered = jk.Mechanism.build(fixed=["ground"], joints=joints).sweep({"A": TURN})
+    found = [design.transmission_angle(each, "C", ("B", "D")) for each in (layered, motion)]
+    np.testing.assert_allclose(found[0], found[1], atol=1e-12)
+
+
+@pytest.mark.long
+def test_the_transmission_angle_of_a_spherical_linkage_is_that_of_its_planes():
+    """By the cosine law of spheres: cos(diagonal) = cos(coupler) cos(rocker) + sin(coupler) sin(rocker) cos(angle)."""
+    ground, coupler, rocker = 1.2, 1.1, 0.9
+    at = spatial.spherical_fourbar(np.array([0.4]))
+    poles = [np.array([0, 0, 50.0]), 60.0 * at.input_pin[0], 40.0 * at.output_pin[0]]
+    poles.append(70.0 * np.array([0.0, -np.sin(ground), np.cos(ground)]))
+    bars = [("ground", "crank"), ("crank", "coupler"), ("coupler", "rocker"), ("ground", "rocker")]
+
+    def linkage(points):
+        return jk.Mechanism.build(
+            fixed=["ground"],
+            joints=[
+                jk.revolute(name, *bar, point=point, axis=pole)
+                for name, bar, point, pole in zip("ABCD", bars, points, poles, strict=True)
+            ],
+        )
+
+    motion = linkage(poles).sweep({"A": TURN})
+    moved = spatial.spherical_fourbar(0.4 + TURN).input_pin @ (poles[3] / 70.0)
+    cosine = (moved - np.cos(coupler) * np.cos(rocker)) / (np.sin(coupler) * np.sin(rocker))
+    found = design.transmission_angle(motion, "C", ("B", "D"))
+    np.testing.assert_allclose(found, np.arccos(cosine), atol=1e-12)
+    with pytest.raises(ValueError, match="the point of joint 'D' is on the axis of 'C'"):
+        design.transmission_angle(linkage([*poles[:3], np.zeros(3)]).sweep({"A": TURN[:3]}), "C", ("B", "D"))
 
 
 @pytest.mark.long
