@@ -23,7 +23,7 @@ from jaxkin.design.lbfgs import bounded
 from jaxkin.design.least_squares import least_squares
 from jaxkin.design.objective import Objective
 from jaxkin.design.optimisers import LBFGS, LevenbergMarquardt, Optimiser
-from jaxkin.design.problem import Problem, design_problem
+from jaxkin.design.problem import HOPELESS, Problem, design_problem
 from jaxkin.design.result import Optimum, judged_range
 from jaxkin.design.search import ProgressBar, search_with_multipliers
 from jaxkin.design.solvers import TOGETHER, Solver
@@ -112,6 +112,8 @@ def optimize(
     verdict = downhill.judge(pool, np.zeros((len(pool), constraint_count)))
     if not np.isfinite(verdict.losses[0]):
         _check_finite(problem, *first)
+    if np.any(verdict.charged[0] >= HOPELESS):
+        _check_known(problem, *first)
     vectors, weight = _best_of(pool, verdict, starts)
     penalty = Penalty.plain(solver.penalty if solver.penalty is not None else weight, starts, constraint_count)
     _warn_of_idle(downhill, vectors, penalty, chosen)
@@ -156,6 +158,16 @@ def _check_finite(problem: Problem, motion: Motion, extras: dict[str, Any]) -> N
         )
 
 
+def _check_known(problem: Problem, motion: Motion, extras: dict[str, Any]) -> None:
+    """Refuse a constraint that is NaN for the design given, which tells no direction in which it would be met."""
+    for name, rows in jax.jit(lambda *given: dict(problem.margins(*given)))(motion, extras).items():
+        if unknown := int(jnp.isnan(rows).sum()):
+            raise ValueError(
+                f"{name} is NaN for the design given, {unknown} of its {rows.size} numbers: it must be a number there; "
+                "mask poses that do not close (motion.closed) or have no forces, or start from another design"
+            )
+
+
 def _best_of(pool: np.ndarray, verdict: Verdict, starts: int) -> tuple[np.ndarray, float]:
     """Find the given design and the best of the pool, and the weight of violations: a hundred times the median of
     their losses."""
@@ -170,7 +182,7 @@ def _best_of(pool: np.ndarray, verdict: Verdict, starts: int) -> tuple[np.ndarra
 def _violated(gaps: list[tuple[str, Any]], margins: list[tuple[str, Any]]) -> str:
     """Say what a design violates, the most first, and what may be done."""
     most = {name: float(np.max(rows, initial=0.0)) for name, rows in gaps}
-    most |= {name: float(np.max(-np.asarray(rows), initial=0.0)) for name, rows in margins}
+    most |= {name: float(np.nan_to_num(np.max(-np.asarray(rows), initial=0.0), nan=np.inf)) for name, rows in margins}
     order = sorted((name for name in most if most[name] > 0), key=lambda name: -most[name])
     said = ", ".join(f"{name} by up to {most[name]:.3g}" for name in order)
     return f"{said}: give more starts, wider bounds, or a larger penalty= of the solver"

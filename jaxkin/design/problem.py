@@ -30,7 +30,8 @@ from jaxkin.mechanism.sweep import sweep
 from jaxkin.solve.options import SolverOptions
 
 HOPELESS = 1e6
-"""Stands for residuals and losses that are not finite, so that the other designs of a batch are not spoilt."""
+"""Stands for residuals and losses that are not finite, and for what constraints lack that are NaN, so that the other
+designs of a batch are not spoilt."""
 
 
 class Judged(NamedTuple):
@@ -84,8 +85,10 @@ class Problem:
         """Compute residuals and violations of a design, differentiable."""
         motion, extras, misfits = self.motion(vector)
         gaps = [rows for _, rows in self.gaps(motion, misfits)]
-        margins = [rows for _, rows in self.margins(motion, extras)]
-        return Judged(self.of_motion(motion, extras), jnp.concatenate(gaps), jnp.concatenate([jnp.zeros(0), *margins]))
+        margins = jnp.concatenate([jnp.zeros(0), *(rows for _, rows in self.margins(motion, extras))])
+        # a maximum of XLA may drop NaN, and what is not known would be met
+        margins = jnp.where(jnp.isnan(margins), -HOPELESS, margins)
+        return Judged(self.of_motion(motion, extras), jnp.concatenate(gaps), margins)
 
     def gaps(self, motion: Motion, misfits: dict[str, Any]) -> list[tuple[str, Float[Array, " gaps"]]]:
         """Compute by how much loops do not close and lengths do not fit, each with its name; zero where all is well."""

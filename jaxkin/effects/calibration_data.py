@@ -120,6 +120,8 @@ def _array(kind: Kind, numbers: Any, poses: int) -> np.ndarray:
         array = np.asarray(numbers, float)
     except (TypeError, ValueError):
         raise ValueError(f"{kind.name}: the measured values must be real numbers, got {numbers!r}") from None
+    if np.isinf(array).any():
+        raise ValueError(f"{kind.name}: a measured value is infinite; where nothing was measured, write NaN")
     if array.shape != shape:
         raise ValueError(
             f"{kind.name}: expected measured values of shape {shape}, one a pose of the drive (NaN where there is "

@@ -79,9 +79,10 @@ class Clashes:
         return np.min(free, axis=0, initial=np.inf)
 
     def __str__(self) -> str:
-        poses = self.clearances.shape[1]
+        poses, unknown = self.clearances.shape[1], int(np.isnan(self.clearances).any(axis=0).sum())
         clash = np.flatnonzero(self.clashing.any(axis=1)).tolist()
-        lines = [f"{len(self.pairs)} pairs of parts come near each other in {poses} poses: {len(clash)} clash"]
+        told = f"{poses - unknown} closed poses of {poses}" if unknown else f"{poses} poses"
+        lines = [f"{len(self.pairs)} pairs of parts come near each other in {told}: {len(clash)} clash"]
         if self.first is not None:
             pose, pair = self.first
             lines.append(f"  first at pose {pose}: {self._named(pair)}, {self._length(self.depths[pair, pose])} deep")

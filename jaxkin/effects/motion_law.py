@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial
 from itertools import accumulate
+from numbers import Real
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +19,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin._arguments import one_number, several
+from jaxkin._arguments import numbers, one_number, several
 from jaxkin._files import save_figure
 from jaxkin._names import closest
 from jaxkin._traced import traced
@@ -135,7 +136,7 @@ class MotionLaw:
         """
         if not isinstance(order, int) or not 0 <= order <= 3:
             raise ValueError(f"order must be 0, 1, 2 or 3 (displacement, velocity, acceleration, jerk), got {order!r}")
-        return _evaluated(self, order, jnp.asarray(times, float))
+        return _evaluated(self, order, jnp.asarray(numbers(times, "the times of a motion law"), float))
 
     def _at(self, time: Array) -> Array:
         found = jnp.asarray(self.start, time.dtype)
@@ -201,7 +202,8 @@ def _evaluated(law: MotionLaw, order: int, times: Float[Array, "*times"]) -> Flo
     function = law._at
     for _ in range(order):
         function = _derivative(function)
-    return jax.vmap(function)(times.ravel()).reshape(times.shape)
+    found = jax.vmap(function)(times.ravel()).reshape(times.shape)
+    return jnp.where(jnp.isnan(times), times, found)
 
 
 def _derivative(function: Callable[[Array], Array]) -> Callable[[Array], Array]:
@@ -230,7 +232,7 @@ def motion_law(segments: Iterable[tuple[Any, ...]], start: float = 0.0) -> Motio
                 "rise 1 outside of jit, vmap and grad, and multiply what it returns"
             )
         wanted = 1 if name == DWELL else 2
-        if len(sizes) != wanted or not all(np.isscalar(x) and np.isfinite(x) for x in sizes):
+        if len(sizes) != wanted or not all(isinstance(x, Real) and np.isfinite(x) for x in sizes):
             said = f"({name!r}, duration{'' if wanted == 1 else ', rise'})"
             raise ValueError(f"{where}: expected {said} with finite numbers, got {given!r}")
         if sizes[0] <= 0:

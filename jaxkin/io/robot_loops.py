@@ -49,6 +49,15 @@ def read_loops(path: Path) -> Loops:
     pairs = said.get("closed_loop") or []
     if not isinstance(pairs, list) or not all(isinstance(each, list) and len(each) == 2 for each in pairs):
         raise ValueError(f"{name}: expected closed_loop: [['frame_a', 'frame_b'], ...], got {pairs!r}")
+    if not pairs and not any(said.get(key) for key in YAML_KEYS):
+        raise ValueError(
+            f"{name}: it closes no loop and names no motor: expected closed_loop: [['frame_a', 'frame_b'], ...]"
+        )
+    if pairs and not said.get("type"):
+        notes.append(
+            f"{name}: no type is given, so that each loop is closed as by a weld (6d): write type: ['3d', ...], one a "
+            "loop, for loops that close at a point"
+        )
     kinds = _texts(said, "type", name) or ["6d"] * len(pairs)
     retyped, types = _texts(said, "joint_name", name), _texts(said, "joint_type", name)
     for (key, entries), (other, count) in zip(

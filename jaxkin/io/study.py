@@ -16,6 +16,7 @@ from jaxkin.io.named_effects import Result, Settings, compute
 from jaxkin.io.ranges import Range, Values, in_radians
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Joint
+from jaxkin.linkage.coordinates import coordinates
 from jaxkin.mechanism.mechanism import Mechanism
 
 if TYPE_CHECKING:
@@ -51,6 +52,8 @@ class Study:
     """Of `Assembly.contacts`: length, angle, fit."""
     ranges: Mapping[str, Range] = field(default_factory=dict)
     """The drive as it was written, by joint or coordinate."""
+    motors: Sequence[str] = ()
+    """Joints or coordinates with a motor, of mechanisms from files that name some."""
     unit: str = ""
     """Of lengths, where there is no assembly to say it."""
     effects: Settings = field(default_factory=dict)
@@ -78,7 +81,15 @@ class Study:
     def mechanism(self) -> Mechanism:
         """The mechanism; ValueError where what is said about it makes none."""
         found = self._uncoupled()
-        return found.with_couplings(self.couplings) if self.couplings else found
+        if self.couplings:
+            found = found.with_couplings(self.couplings)
+        if not self.motors:
+            return found
+        try:
+            coordinates(found.linkage, self.motors)
+        except ValueError as error:
+            raise ValueError(f"{self.source}: motors: {error}") from None
+        return replace(found, motors=tuple(self.motors))
 
     def _uncoupled(self) -> Mechanism:
         """Make the mechanism without the couplings of the study."""
@@ -146,6 +157,7 @@ def load_study(
         "rigid": said.rigid,
         "ignore": said.ignore,
         "exclude": said.exclude,
+        "motors": said.motors,
     }
     common |= {"couplings": said.made_couplings(path.name)}
     common |= {"joints": joints, "combine": said.combine, "detect": said.contacts, "infer": said.infer}

@@ -137,6 +137,12 @@ class JointTable(BaseModel):
             return joint
         names = joint.coordinates
         said = self.limits if isinstance(self.limits, dict) else dict.fromkeys(names[:1], self.limits)
+        for name, (low, high) in said.items():
+            if not low <= high:
+                raise ValueError(
+                    f"joint {joint.name!r}: the limits of {name} must be the lower one and then the higher one, "
+                    f"degrees or a length, got [{low:g}, {high:g}]"
+                )
         given = {
             name: ends if name in names and is_length(name) else [float(np.radians(end)) for end in ends]
             for name, ends in said.items()
@@ -191,6 +197,7 @@ class StudyFile(BaseModel):
     rigid: list[Annotated[list[str], Field(min_length=1)]] = []
     ignore: list[Pair] = []
     exclude: list[str] = []
+    motors: list[str] = []
     contacts: bool = True
     infer: bool = True
     clearance: Annotated[Number, Field(ge=0)] | None = None

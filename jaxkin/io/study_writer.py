@@ -121,7 +121,7 @@ def _bodies(mechanism: Mechanism, bodies: Bodies, exclude: Sequence[str], choice
     if bodies.groups:
         lines += ["", "rigid = [  # what moves as one; without a line its parts come apart"]
         lines += [f"  {toml(group)},{_after(evidence)}" for group, evidence in bodies.groups] + ["]"]
-    return lines
+    return [*lines, "", f"motors = {toml(mechanism.motors)}"] if mechanism.motors else lines
 
 
 def _after(evidence: Evidence | None) -> str:

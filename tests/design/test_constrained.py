@@ -81,6 +81,23 @@ def test_nearest_point_of_a_disc(solver):
 
 
 @pytest.mark.long
+@pytest.mark.parametrize("squares", [True, False])
+def test_a_constraint_that_is_no_number_is_not_met(squares):
+    """As a torque where friction locks: least x that is not below 1, with a constraint that is NaN there."""
+    calls = {"drive": {"A": FEW}, "solver": design.LevenbergMarquardt() if squares else design.LBFGS()}
+    calls["constraints"] = [lambda motion, extras: jnp.where(extras["x"] < 1.0, jnp.nan, extras["x"] - 1.2)]
+
+    def loss(motion, extras):
+        return jnp.atleast_1d(extras["x"]) if squares else extras["x"] ** 2
+
+    best = jk.optimize(loss, planar_fourbar(1.0), extras={"x": design.Free(2.5, 0.0, 3.0)}, **calls)
+    assert best.feasible
+    assert best.values["x"] == pytest.approx(1.2, abs=10 * MET)
+    with pytest.raises(ValueError, match=r"constraint 0 .* is NaN for the design given, 1 of its 1 numbers"):
+        jk.optimize(loss, planar_fourbar(1.0), extras={"x": design.Free(0.5, 0.0, 3.0)}, **calls)
+
+
+@pytest.mark.long
 def test_the_longest_crank_whose_rod_clears_a_post_by_two_millimetres(tmp_path):
     """The clearance, written by the axes of rod and post, is 2 at the best crank; `jk.clashes` finds it on solids."""
     post, round_of, half, wanted = np.array([75.0, 35.0]), 10.0, 3.0, 2.0

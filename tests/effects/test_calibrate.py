@@ -222,6 +222,7 @@ POINT = jk.point("coupler", (60.0, 25.0, 0.0))
         ({"E": np.zeros(24)}, {"lengths": [CRANK]}, "there is no joint 'E'"),
         ({}, {"lengths": [CRANK]}, "nothing was measured"),
         ({"D": np.full(24, np.nan)}, {"lengths": [CRANK]}, "nothing was measured: all values are NaN"),
+        ({"D": np.full(24, np.inf)}, {"lengths": [CRANK]}, "D.*: a measured value is infinite"),
         ({"D": np.zeros(24), POINT: np.zeros((24, 3))}, {"lengths": [CRANK]}, "say how exact either is"),
         ({"D": np.zeros(24)}, {"lengths": [CRANK], "markers": [POINT]}, "markers must be points that were measured"),
         ({"D": np.zeros(24), "B": np.zeros(24)}, {"lengths": [CRANK], "sigma": {"B": 1}}, "no standard deviation of D"),

@@ -109,12 +109,22 @@ def test_traced_numbers_of_a_law_are_refused():
         ),
         ([("dwell", 1.0, 2.0)], r"expected \('dwell', duration\)"),
         ([("harmonic", -1.0, 2.0)], "its duration must be positive, got -1.0"),
+        ([("harmonic", "1", 2.0)], r"expected \('harmonic', duration, rise\) with finite numbers"),
+        ([("harmonic", 1.0, 1j)], r"expected \('harmonic', duration, rise\) with finite numbers"),
         ([], "at least one segment"),
     ],
 )
 def test_laws_that_are_none(segments, said):
     with pytest.raises(ValueError, match=said):
         jk.motion_law(segments)
+
+
+def test_a_time_that_is_not_known_has_no_displacement():
+    law = jk.motion_law([("3-4-5", 1.0, 2.0)], start=5.0)
+    np.testing.assert_array_equal(law([-1.0, np.nan, 2.0]), [5.0, np.nan, 7.0])
+    assert np.isnan(law(np.nan, 1))
+    with pytest.raises(ValueError, match="the times of a motion law must be numbers, got 'x'"):
+        law("x")
 
 
 @pytest.mark.long

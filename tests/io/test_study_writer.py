@@ -1,5 +1,6 @@
 """A study that was written makes the mechanism that it was written from."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import jax
@@ -62,6 +63,16 @@ def test_it_is_swept_by_the_range_that_it_was_given(tmp_path):
     motion, expected = jk.load_study(tmp_path / "study.toml").sweep(), given.sweep({"A": np.radians([0, 30, 60, 90])})
     for one, other in zip(motion.displacements, expected.displacements, strict=True):
         np.testing.assert_allclose(one, other, atol=1e-12)
+
+
+def test_motors_come_back(tmp_path):
+    given = replace(mechanisms.planar_fourbar(), motors=("A", "D"))
+    jk.write_study(given, tmp_path / "study.toml")
+    assert jk.load_study(tmp_path / "study.toml").mechanism.motors == given.motors
+    text = (tmp_path / "study.toml").read_text()
+    (tmp_path / "study.toml").write_text(text.replace('motors = ["A"', 'motors = ["Q"'))
+    with pytest.raises(ValueError, match=r"study\.toml: motors: there is no joint 'Q'"):
+        _ = jk.load_study(tmp_path / "study.toml").mechanism
 
 
 def test_without_a_range_it_says_what_can_drive(tmp_path):

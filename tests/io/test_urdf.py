@@ -202,6 +202,8 @@ def test_an_entity_bomb_is_refused(tmp_path):
         ("name_mot: ['hip']", "unknown joint 'hip'"),
         ("name_mot: ['elbow'", "is not closed"),
         ("&anchor x", "line 1"),
+        ("", "closes no loop and names no motor"),
+        ("closed_loop: []", "closes no loop and names no motor"),
     ],
 )
 def test_loops_that_make_no_sense_are_refused(tmp_path, loops, message):
