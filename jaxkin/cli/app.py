@@ -83,6 +83,8 @@ def inspect(
     with one_line_errors():
         from jaxkin.cli import report, written
 
+        if study_file:
+            written.check_no_study(files)
         with progress(2) as step:
             options = Options(fixed, rigid, ignore, (), no_combine, unit, exclude, exact_only, (), seconds, loops_file)
             study = run.read(files, options, step)

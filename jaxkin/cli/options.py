@@ -70,6 +70,8 @@ class Options:
             )
         if len(files) == 1:
             given = load(files[0], unit=self.unit, seconds=self.seconds, loops=self.loops, progress=progress)
+            if given.saved is not None:
+                return Study(files[0].name, None, saved=given.saved)
             return Study(files[0].name, given)
         parts = {file.stem: file for file in files}
         if len(parts) < len(files):

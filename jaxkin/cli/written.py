@@ -53,6 +53,12 @@ def write_refusal(assembly: Assembly, contacts: Contacts, page: Path, refusal: V
     inspection_page(assembly, page, source=assembly.source, missing=missing, contacts=contacts)
 
 
+def check_no_study(files: Sequence[Path]) -> None:
+    """Raise ValueError where a study is given, of which another one would be written."""
+    if files[0].suffix.lower() == ".toml":
+        raise ValueError(f"{files[0].name} is a study already: give the geometry that it names")
+
+
 def write_study(
     study: Study, files: Sequence[Path], tried: Sequence[Proposal], target: Path, loops: Path | None = None
 ) -> str:
@@ -61,15 +67,13 @@ def write_study(
     from jaxkin.io.study_drives import small_drive
     from jaxkin.io.study_writer import write_study
 
-    if files[0].suffix.lower() == ".toml":
-        raise ValueError(f"{files[0].name} is a study already: give the geometry that it names")
     from_there = [_from(target, file) for file in files]
     parts = dict(zip((file.stem for file in files), from_there, strict=True))
     mechanism = study.mechanism
     names = study.assembly.names if study.assembly else ()
     with progress(1) as step:
         step("trying what is open in the study")
-        drive = small_drive(mechanism)
+        drive = small_drive(mechanism) if mechanism.solids else None
         write_study(
             mechanism,
             target,
@@ -80,7 +84,7 @@ def write_study(
             proposals=tried,
         )
     if not drive:
-        return "Nothing can drive in it yet: see its last line."
+        return "Nothing drives in it yet: see its last lines."
     return f"Choose among its lines, then: jaxkin sweep {shlex.quote(str(target))} --out motion"
 
 

@@ -232,7 +232,7 @@ def motion_law(segments: Iterable[tuple[Any, ...]], start: float = 0.0) -> Motio
                 "rise 1 outside of jit, vmap and grad, and multiply what it returns"
             )
         wanted = 1 if name == DWELL else 2
-        if len(sizes) != wanted or not all(isinstance(x, Real) and np.isfinite(x) for x in sizes):
+        if len(sizes) != wanted or not all(isinstance(x, Real) and np.isfinite(float(x)) for x in sizes):
             said = f"({name!r}, duration{'' if wanted == 1 else ', rise'})"
             raise ValueError(f"{where}: expected {said} with finite numbers, got {given!r}")
         if sizes[0] <= 0:

@@ -52,6 +52,8 @@ class Study:
     """Of `Assembly.contacts`: length, angle, fit."""
     ranges: Mapping[str, Range] = field(default_factory=dict)
     """The drive as it was written, by joint or coordinate."""
+    saved: Mechanism | None = None
+    """The mechanism of a file that `Mechanism.save` wrote, which says all but the drive and the effects."""
     motors: Sequence[str] = ()
     """Joints or coordinates with a motor, of mechanisms from files that name some."""
     unit: str = ""
@@ -80,7 +82,11 @@ class Study:
     @cached_property
     def mechanism(self) -> Mechanism:
         """The mechanism; ValueError where what is said about it makes none."""
-        found = self._uncoupled()
+        try:
+            found = self._uncoupled()
+        except ValueError as error:
+            named = self.source in str(error) or not self.source.endswith(".toml")
+            raise error if named else ValueError(f"{self.source}: {error}") from None
         if self.couplings:
             found = found.with_couplings(self.couplings)
         if not self.motors:
@@ -93,6 +99,13 @@ class Study:
 
     def _uncoupled(self) -> Mechanism:
         """Make the mechanism without the couplings of the study."""
+        if self.saved is not None:
+            if self.fixed or self.rigid or self.ignore or self.exclude or not (self.combine and self.infer):
+                raise ValueError(
+                    f"{self.source} holds a whole mechanism, with its joints, bodies and fixed parts: give it without "
+                    "options that say anything about these"
+                )
+            return self.saved
         if self.assembly is None:
             return Mechanism.build(fixed=self.fixed, joints=self.joints, unit=self.unit, align=self.align)
         if not self.held:

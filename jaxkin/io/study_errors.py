@@ -50,7 +50,7 @@ def _said(error: Any, keys: Mapping[tuple[str, ...], Sequence[str]]) -> str:
             return _unknown(error["loc"], place, keys)
         case "too_short" | "too_long":
             length = context.get("min_length", context.get("max_length"))
-            at_least = "at least " if str(error["loc"][0]) in ("fixed", "rigid") else ""
+            at_least = "at least " if {error["loc"][0], error["loc"][-1]} & {"fixed", "rigid", "values"} else ""
             return f"{place}: expected a list of {at_least}{length}, got {_shown(error['input'])}"
         case "value_error":
             return f"{place}: {context['error']}"

@@ -157,7 +157,7 @@ class RangeTable(BaseModel):
     first: Number | None = Field(None, alias="from")
     last: Number | None = Field(None, alias="to")
     poses: Annotated[int, Field(ge=1, le=MAX_POSES)] | None = None
-    values: list[Number] | None = None
+    values: Annotated[list[Number], Field(min_length=1)] | None = None
     unit: Annotated[str, BeforeValidator(partial(one_of, ("", *RADIANS, *filter(None, METRES))))] = ""
 
     @model_validator(mode="after")

@@ -9,6 +9,7 @@ import numpy as np
 
 from jaxkin._grouped import SCREEN, grouped, kind_of, shortened
 from jaxkin._names import listed
+from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.units import unit_name
 from jaxkin.joints.evidence import EvidenceKind
 from jaxkin.joints.joint import Joint
@@ -77,9 +78,10 @@ def _joints(joints: Sequence[Joint]) -> list[str]:
 
 
 def _limits(joint: Joint) -> str:
-    """Write the limits of a joint, radians or lengths from the assembled pose: "-0.5 to 1"; empty without any."""
+    """Write the limits of a joint, radians or lengths from the assembled pose: "-0.5 to 1 rad"; empty without any."""
     return ", ".join(
-        f"{low:.4g} to {high:.4g}" if np.isfinite([low, high]).any() else "none" for low, high in joint.limits
+        f"{low:.4g} to {high:.4g}{'' if is_length(name) else ' rad'}" if np.isfinite([low, high]).any() else "none"
+        for name, (low, high) in zip(joint.coordinates, joint.limits, strict=bool(joint.limits))
     )
 
 
