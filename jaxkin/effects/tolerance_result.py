@@ -114,12 +114,16 @@ class Tolerances:
         return float(np.mean((self.samples >= self.wanted[0]) & (self.samples <= self.wanted[1])))
 
     def worst_deviations(self) -> Float[np.ndarray, " numbers"]:
-        """Find the deviations that together raise the measure most to first order; reversed they lower it most."""
+        """Find the deviations that together raise the measure most to first order; reversed they lower it most.
+
+        Where the first order is zero, as at an extremum of the measure, a deviation goes to its limit all the same: the
+        designs that are computed in full show what the second order does.
+        """
         parts, first = [], 0
         for stated, size in zip(self.stated, self.dimensions, strict=True):
             slope = np.asarray(self.slopes[first : first + size])
             length = np.linalg.norm(slope)
-            parts.append(stated.limit * slope / length if length > 0 else np.zeros(size))
+            parts.append(stated.limit * (slope / length if length > 0 else np.eye(size)[0]))
             first += size
         return np.concatenate(parts)
 
