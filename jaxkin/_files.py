@@ -43,10 +43,15 @@ def whole(target: Path) -> Iterator[Path]:
     """Yield a draft of a file, which takes the place of the file when it is written, and never if that fails.
 
     It lies in a folder beside the file, on the same disk, so that the move is a mere renaming. Raises FileNotFoundError
-    where the folder of the file is not there.
+    where the folder of the file is not there, and OSError where nothing can be written in it.
     """
     check_folder(target)
-    with TemporaryDirectory(prefix=".", dir=target.parent) as folder:
+    try:
+        beside = TemporaryDirectory(prefix=".", dir=target.parent)
+    except OSError as error:
+        why = (error.strerror or str(error)).lower()
+        raise OSError(f"cannot write {target}: {why}; name a folder that can be written in") from None
+    with beside as folder:
         draft = Path(folder) / target.name
         yield draft
         os.replace(draft, target)

@@ -1,8 +1,12 @@
 """What cannot be written is refused before any work: the files to read are not even looked for."""
 
+import errno
+import os
+
 import pytest
 from typer.testing import CliRunner
 
+from jaxkin import _files
 from jaxkin.cli.app import app
 
 
@@ -30,3 +34,14 @@ def test_a_report_that_cannot_be_written_is_refused_before_all_work(option, suff
         done = invoke("inspect", "missing.step", option, name)
         assert done.exit_code == 2 and f"'{option}'" in done.stderr
         assert said in " ".join(done.stderr.replace("│", " ").split())
+
+
+def test_a_folder_in_which_nothing_can_be_written_is_named_with_the_file(tmp_path, monkeypatch):
+    def refused(**_):
+        raise OSError(errno.EROFS, os.strerror(errno.EROFS), str(tmp_path / ".draft"))
+
+    monkeypatch.setattr(_files, "TemporaryDirectory", refused)
+    said = r"cannot write .*found\.html: read-only file system; name a folder"
+    with pytest.raises(OSError, match=said) as error, _files.whole(tmp_path / "found.html"):
+        pass
+    assert ".draft" not in str(error.value)
