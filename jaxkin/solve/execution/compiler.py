@@ -20,7 +20,7 @@ COMPILER_OPTIONS = {
 }
 """Options of XLA for the CPU. With its newer emitters XLA takes 1.7 times as long to compile the solver, with the
 costlier passes of LLVM 1.4 times, for a program that is no faster. Four modules of code, which two cores compile at the
-same time, take 0.6 to 0.7 of the seconds of one module; 32 modules gain no more.
+same time, take 0.6 to 0.8 of the seconds of one module; 32 modules gain no more.
 
 The operations of the program take a few microseconds each. To call a library for reductions, to rewrite sums of about
 forty numbers as trees, or to split an operation among threads takes longer than the operation; and threads that wait
