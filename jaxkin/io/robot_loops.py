@@ -49,6 +49,8 @@ def read_loops(path: Path) -> Loops:
     pairs = said.get("closed_loop") or []
     if not isinstance(pairs, list) or not all(isinstance(each, list) and len(each) == 2 for each in pairs):
         raise ValueError(f"{name}: expected closed_loop: [['frame_a', 'frame_b'], ...], got {pairs!r}")
+    if twice := next((pair for number, pair in enumerate(pairs) if pair in pairs[:number]), None):
+        raise ValueError(f"{name}: closed_loop has {twice!r} twice: leave one out")
     if not pairs and not any(said.get(key) for key in YAML_KEYS):
         raise ValueError(
             f"{name}: it closes no loop and names no motor: expected closed_loop: [['frame_a', 'frame_b'], ...]"

@@ -203,6 +203,7 @@ def test_an_entity_bomb_is_refused(tmp_path):
         ("name_mot: ['elbow'", "is not closed"),
         ("&anchor x", "line 1"),
         ("", "closes no loop and names no motor"),
+        ("closed_loop: [['hand', 'base'], ['hand', 'base']]", r"arm.yaml: closed_loop has \['hand', 'base'\] twice"),
         ("closed_loop: []", "closes no loop and names no motor"),
     ],
 )
