@@ -20,6 +20,9 @@ FIRST_DAMPING = 1e-3
 """Damping of the first step, relative to the largest diagonal entry of J^T J."""
 LEAST_DAMPING = 1e-16
 """Least damping of a step, relative to the same."""
+MOST = 100 * HOPELESS
+"""Largest residual and violation. Shifts of what is not known grow by `HOPELESS` with each search: cut off there, what
+constraints lack would be zero in the second one."""
 MAX_HOLDS = 3
 """How often a step is computed anew at most, with the variables held at whose bounds it would leave the box."""
 
@@ -102,7 +105,7 @@ def _program(structure: Structure, together: int) -> TwoTiers:
                 return jax.jvp(lambda u: problem.weighted(lower + width * u, penalty), (unit,), (direction,))
 
             found, slopes = jax.vmap(along, out_axes=(None, -1))(jnp.eye(unit.size, dtype=unit.dtype))
-            found = jax.tree.map(lambda rows: jnp.clip(jnp.nan_to_num(rows, nan=HOPELESS), -HOPELESS, HOPELESS), found)
+            found = jax.tree.map(lambda rows: jnp.clip(jnp.nan_to_num(rows, nan=HOPELESS), -MOST, MOST), found)
             return found, jnp.nan_to_num(jnp.concatenate(slopes), nan=0.0, posinf=0.0, neginf=0.0)
 
         return jax.vmap(one)(units, penalties)

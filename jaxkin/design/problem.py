@@ -86,7 +86,6 @@ class Problem:
         motion, extras, misfits = self.motion(vector)
         gaps = [rows for _, rows in self.gaps(motion, misfits)]
         margins = jnp.concatenate([jnp.zeros(0), *(rows for _, rows in self.margins(motion, extras))])
-        # a maximum of XLA may drop NaN, and what is not known would be met
         margins = jnp.where(jnp.isnan(margins), -HOPELESS, margins)
         return Judged(self.of_motion(motion, extras), jnp.concatenate(gaps), margins)
 

@@ -8,7 +8,12 @@ import trimesh
 import jaxkin as jk
 from jaxkin import design
 from jaxkin.design.augmented_lagrangian import MET, Penalty, Verdict, renewed, worth_more
+from jaxkin.design.lbfgs import bounded
+from jaxkin.design.least_squares import least_squares
 from jaxkin.design.measures import length_now
+from jaxkin.design.problem import design_problem
+from jaxkin.design.variables import variables
+from jaxkin.solve.options import SolverOptions
 from reference.drawn_parts import box, loaded
 from reference.mechanisms import Z, planar_fourbar, slider_crank
 
@@ -89,6 +94,15 @@ def test_a_constraint_that_is_no_number_is_not_met(squares):
 
     def loss(motion, extras):
         return jnp.atleast_1d(extras["x"]) if squares else extras["x"] ** 2
+
+    chosen = variables(planar_fourbar(1.0), {"A": FEW}, {}, {}, {"x": design.Free(2.5, 0.0, 3.0)}, {})
+    problem = design_problem(loss, squares, planar_fourbar(1.0), chosen, calls["constraints"], SolverOptions())
+    solver = (least_squares if squares else bounded)(problem, 1)
+    shifts = np.zeros((1, 1))
+    for _ in range(3):  # whatever the searches before have charged for it
+        verdict = solver.judge(np.array([[0.5]]), shifts)
+        assert verdict.violations > 1e5
+        shifts = verdict.charged
 
     best = jk.optimize(loss, planar_fourbar(1.0), extras={"x": design.Free(2.5, 0.0, 3.0)}, **calls)
     assert best.feasible
