@@ -29,9 +29,9 @@ from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.sweep import sweep
 from jaxkin.solve.options import SolverOptions
 
-HOPELESS = 1e6
+HOPELESS = 1e15
 """Stands for residuals and losses that are not finite, and for what constraints lack that are NaN, so that the other
-designs of a batch are not spoilt."""
+designs of a batch are not spoilt: more than any loss in any unit, and its square is a number in float32."""
 
 
 class Judged(NamedTuple):

@@ -86,6 +86,20 @@ def test_nearest_point_of_a_disc(solver):
 
 
 @pytest.mark.long
+@pytest.mark.parametrize("unit", [1e-6, 1e10])
+def test_losses_may_be_in_any_unit(unit):
+    """Least (x - 2)^2 + (x - 1)^2 / 4 is at 1.8."""
+
+    def residuals(motion, extras):
+        return unit * jnp.stack([extras["x"] - 2.0, 0.5 * (extras["x"] - 1.0)])
+
+    given = {"drive": {"A": FEW}, "extras": {"x": design.Free(2.9, 0.0, 3.0)}}
+    best = jk.optimize(residuals, planar_fourbar(1.0), solver=design.LevenbergMarquardt(), **given)
+    assert best.values["x"] == pytest.approx(1.8, abs=1e-6)
+    assert best.value == pytest.approx(0.2 * unit**2, rel=1e-9)
+
+
+@pytest.mark.long
 @pytest.mark.parametrize("squares", [True, False])
 def test_a_constraint_that_is_no_number_is_not_met(squares):
     """As a torque where friction locks: least x that is not below 1, with a constraint that is NaN there."""
