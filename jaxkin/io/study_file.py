@@ -140,8 +140,8 @@ class JointTable(BaseModel):
         for name, (low, high) in said.items():
             if not low <= high:
                 raise ValueError(
-                    f"joint {joint.name!r}: the limits of {name} must be the lower one and then the higher one, "
-                    f"degrees or a length, got [{low:g}, {high:g}]"
+                    f"joint {joint.name!r}: the limits of {name} must be two numbers, the lower one first, in degrees "
+                    f"or a length, got [{low:g}, {high:g}]"
                 )
         given = {
             name: ends if name in names and is_length(name) else [float(np.radians(end)) for end in ends]

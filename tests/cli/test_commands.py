@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-import jaxkin as jk
 from jaxkin.cli.app import app
 from jaxkin.examples import path
 from jaxkin.io.writers import WRITERS
@@ -188,24 +187,6 @@ def test_inspect_writes_a_page_and_a_study_that_sweeps(tmp_path):
     assert "To move it, give a range for this: ground-crank.phi" in text and "The best of 3 choices" in text
     done = invoke("sweep", study, "--out", tmp_path / "motion")
     assert done.exit_code == 0 and "21  CLOSED" in done.output, done.output
-
-
-@pytest.mark.long
-def test_a_saved_mechanism_is_inspected_swept_and_written_as_a_study(tmp_path):
-    saved, study = tmp_path / "linkage.json", tmp_path / "study.toml"
-    jk.load(FOURBAR).mechanism(fixed=["ground"]).save(saved)
-    done = invoke("inspect", saved, "--study", study)
-    assert done.exit_code == 0 and "Mobility: 1 freedom" in done.output, done.output
-    study.write_text(study.read_text() + '\n[drive]\nground-crank = "0:360:5"\n')
-    for file, drive in ((saved, CRANK[2:]), (study, []), (FOURBAR, CRANK)):
-        done = invoke("sweep", file, *drive, "--out", tmp_path / Path(file).stem)
-        assert done.exit_code == 0 and "5  CLOSED" in done.output, done.output
-    one, *others = (np.load(tmp_path / name / "motion.npz") for name in ("fourbar", "linkage", "study"))
-    for other in others:
-        for name in ("ground-rocker", "coupler-rocker"):
-            np.testing.assert_allclose(other[f"joint:{name}"], one[f"joint:{name}"], atol=1e-12)
-    refused = invoke("sweep", saved, *CRANK, "--out", tmp_path / "motion")
-    assert refused.exit_code == 2 and "linkage.json holds a whole mechanism" in refused.stderr
 
 
 @pytest.mark.long

@@ -159,7 +159,7 @@ HINGE = '[joints.A]\nkind = "revolute"\nparts = ["ground", "crank"]\n'
         (HEAD + HINGE.replace("lute", "lut"), "got 'revolut'; did you mean 'revolute'?"),
         (
             HEAD + HINGE + "point = [0, 0, 0]\naxis = [0, 0, 1]\nlimits = [10, -10]",
-            "the limits of phi must be the lower one and then the higher one, degrees or a length, got [10, -10]",
+            "the limits of phi must be two numbers, the lower one first, in degrees or a length, got [10, -10]",
         ),
         (HEAD + "[drive]\na = []", "drive.a.values: expected a list of at least 1, got []"),
         (HEAD + "[drive]\na = 3", "drive.a: expected a text START:STOP:COUNT"),
