@@ -108,6 +108,7 @@ def test_bad_rates():
         velocities(motion, {"A": 1.0}).points("rod", (0, 0, 0))
 
 
+@pytest.mark.long
 def test_rates_of_poses_in_which_a_rod_has_spun():
     """A rod of an RSSR linkage whose point is pulled to a place: the rocker still turns about its hinge."""
     joints = [

@@ -91,6 +91,7 @@ def test_a_box_that_slides_sweeps_a_prism(along, within):
     assert "Swept volume of box over 2 poses" in text and "60 placements" in text and "too small on this grid" in text
 
 
+@pytest.mark.long
 def test_a_bound_that_tells_little_says_which_step_to_write():
     """A rod of 2 x 2 mm: with the step that is said, the bound is less than half of its volume."""
     motion = box_on_a_slide((20.0, 2.0, 2.0)).sweep({"P": np.array([0.0, 1.0])})

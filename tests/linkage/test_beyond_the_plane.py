@@ -37,6 +37,7 @@ def test_poses_that_are_given_out_of_the_plane_are_projected_there():
     np.testing.assert_allclose(found.motion.coordinates["cylinder"], [[0.0, 0.4]], atol=1e-9)
 
 
+@pytest.mark.long
 def test_lengths_that_jax_traces_may_leave_the_plane():
     """The eye is lifted along the hinge of the boom: the tube tilts on its cross, and the cylinder turns nothing."""
     mechanism = rod_on_ball_and_cross(height=1.0)

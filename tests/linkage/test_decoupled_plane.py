@@ -108,6 +108,7 @@ def test_other_joints_leave_loops_in_space(last):
     assert in_plane(crane(last=last)) is None
 
 
+@pytest.mark.long
 def test_a_coupling_in_the_plane_leaves_the_plane_as_it_is():
     """A wheel on the ground turns twice as far as the boom that the cylinder lifts."""
     wheel = jk.revolute("wheel", "ground", "wheel", point=(-3, 0, 0), axis=Z)

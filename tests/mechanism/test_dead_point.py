@@ -22,6 +22,7 @@ def crank_at(slides):
     return np.arccos((CRANK**2 + x**2 - ROD**2) / (2 * CRANK * x))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("options", [None, pytest.param(jk.SolverOptions(formulas=False), marks=pytest.mark.long)])
 def test_poses_that_close_are_never_said_to_be_unreachable(options):
     motion = stretched().sweep({"S": SLIDES}, options=options)

@@ -39,6 +39,7 @@ def test_statuses_next_to_the_limit(margin):
     assert list(motion.status) == [Status.CLOSED, Status.UNREACHABLE]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("rocker", [pytest.param(2.49, marks=pytest.mark.long), 2.499])
 @pytest.mark.parametrize("poses", [361, pytest.param(3601, marks=pytest.mark.long)])
 def test_behind_a_narrow_gap_poses_are_reached_the_other_way_round(rocker, poses):
@@ -51,6 +52,7 @@ def test_behind_a_narrow_gap_poses_are_reached_the_other_way_round(rocker, poses
     assert np.sum(~motion.closed) >= 5
 
 
+@pytest.mark.long
 def test_far_beyond_the_limits_no_pose_closes():
     """A crank longer than coupler and rocker together: they do not reach it anywhere on the far side."""
     lengths = {"ground": 1.457442573711074, "crank": 1.886036060218882, "coupler": 0.353211887598004}
@@ -230,6 +232,7 @@ def test_the_rod_of_an_rssr_does_not_spin():
         np.testing.assert_allclose(angles - 2 * np.pi * np.round(angles / (2 * np.pi)), 0.0, atol=1e-11)
 
 
+@pytest.mark.long
 @pytest.mark.filterwarnings("ignore:jaxkin computes in float32")
 def test_many_turns_close_as_nearly_as_their_angles_are_told_apart():
     """At 100 turns neighbouring angles of float32 are 6e-5 rad apart: so much is each of the three angles off, too."""

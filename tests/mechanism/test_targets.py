@@ -153,6 +153,7 @@ TIP = jk.point("b", (1.5, 2, 0))
 HELD = {TIP: [[1.5, 2.0, 0.0]], jk.pose("b"): np.eye(4)[None], jk.orientation("b"): np.eye(3)[None], "A": [0.0]}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "keys", [(jk.pose("b"),), (TIP, "A"), (jk.orientation("b"), TIP), ("A", "E", jk.orientation("b"))], ids=str
 )

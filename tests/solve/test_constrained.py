@@ -51,6 +51,7 @@ def test_inverse_roots_are_lower_and_make_the_matrix_one(n):
         np.testing.assert_allclose(own @ matrix[..., pose] @ own.T, np.eye(n), atol=1e-12)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("rows", "columns"), SHAPES)
 def test_minima_and_their_derivatives(rows, columns):
     """z = x + N u: x violates the equations least, and u minimises along their null space; derivatives by differences.

@@ -51,6 +51,7 @@ def closed_by_newton(system, geometry, state, target_residual, options=DEFAULT, 
     return newton(problem, state, target_residual, extrapolate_residual=extrapolate_residual)
 
 
+@pytest.mark.long
 def test_newtons_step_squares_the_residual():
     """e_(k+1) / e_k^2 is bounded: not so of a linear rate, which takes a third step's ratio to infinity."""
     system, geometry = problem(planar_fourbar(1.0))

@@ -30,6 +30,7 @@ def test_a_shorthand_is_the_option():
     assert 1e-9 < np.max(short.residual) <= 1e-3  # improved no further than asked for
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "options",
     [

@@ -65,6 +65,7 @@ def test_the_jacobian_is_the_derivative_of_the_residual_where_the_loops_close(ma
         np.testing.assert_allclose(found, expected, atol=1e-13)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("make", [planar_fourbar, slider_crank, oldham], ids=lambda make: make.__name__)
 def test_many_poses_have_the_jacobian_of_few(make):
     """Written out link by link for many poses at once, as a product of matrices for few."""
