@@ -84,17 +84,19 @@ class Study:
         """The mechanism; ValueError where what is said about it makes none."""
         try:
             found = self._uncoupled()
+            found = found.with_couplings(self.couplings) if self.couplings else found
+            return self._with_motors(found) if self.motors else found
         except ValueError as error:
-            named = self.source in str(error) or not self.source.endswith(".toml")
-            raise error if named else ValueError(f"{self.source}: {error}") from None
-        if self.couplings:
-            found = found.with_couplings(self.couplings)
-        if not self.motors:
-            return found
+            # the same error with its traceback, which tells what is refused from a defect
+            if self.source.endswith(".toml") and self.source not in str(error):
+                error.args = (f"{self.source}: {error}",)
+            raise
+
+    def _with_motors(self, found: Mechanism) -> Mechanism:
         try:
             coordinates(found.linkage, self.motors)
         except ValueError as error:
-            raise ValueError(f"{self.source}: motors: {error}") from None
+            raise ValueError(f"motors: {error}") from None
         return replace(found, motors=tuple(self.motors))
 
     def _uncoupled(self) -> Mechanism:

@@ -138,7 +138,7 @@ class JointTable(BaseModel):
         names = joint.coordinates
         said = self.limits if isinstance(self.limits, dict) else dict.fromkeys(names[:1], self.limits)
         for name, (low, high) in said.items():
-            if not low <= high:
+            if not low <= high:  # refused here, in the unit in which they were written
                 raise ValueError(
                     f"joint {joint.name!r}: the limits of {name} must be two numbers, the lower one first, in degrees "
                     f"or a length, got [{low:g}, {high:g}]"
