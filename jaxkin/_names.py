@@ -1,10 +1,11 @@
-"""Names that were not found: the nearest known one, for messages; and parts by pattern."""
+"""Names that were not found: the nearest known one, for messages; parts by pattern; and names that are still free."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from difflib import get_close_matches
+from itertools import count
 from typing import Protocol
 
 _MAX_KNOWN = 8
@@ -64,6 +65,12 @@ def nearest(name: str, known: Iterable[str]) -> str:
     if not known:
         return "; there is none"
     return f"; there is {listed([repr(other) for other in known])}"
+
+
+def free_name(name: str, taken: Container[str]) -> str:
+    """Return the first of "name", "name#2", "name#3", ... that is not taken."""
+    numbered = (name if number == 1 else f"{name}#{number}" for number in count(1))
+    return next(each for each in numbered if each not in taken)
 
 
 def listed(words: Sequence[str], most: int = _MAX_KNOWN) -> str:

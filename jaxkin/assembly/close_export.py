@@ -31,7 +31,8 @@ def closed_export(
     """Move the parts of an export to a pose in which the two frames of each joint coincide as its movement allows.
 
     `frames_2` are the frames (frames, 4, 4) of each constraint on the side of its second part; those of the first part
-    are in its chain. Motors and locked coordinates are held where the file has them, if the loops close so. Limits and
+    are in its chain. Motors, locked coordinates and those that others follow at a distance are held where the file has
+    them, if the loops close so. Limits and
     values of joints are counted on. Notes tell how far parts were moved; where the loops do not close, nothing is
     moved, each joint is taken as it stands on its first part, and a note tells how far they are open.
     """
@@ -46,7 +47,10 @@ def closed_export(
     names = [(each, number, f"{each.name}.{name}") for each in joints for number, name in enumerate(each.coordinates)]
     motors = [name for each, _, name in names if {each.name, name} & {*exported.motors}]
     locked = [name for each, number, name in names if each.limits and each.limits[number] == (0.0, 0.0)]
-    found = _closed(Mechanism(linkage, unit), [*dict.fromkeys([*motors, *locked])], motors, [])
+    leaders = _leaders(exported)
+    leading = [name for each, _, name in names if {each.name, name} & leaders]
+    held = [*dict.fromkeys([*motors, *locked])]
+    found = _closed(Mechanism(linkage, unit), [*dict.fromkeys([*held, *leading])], held, motors, [])
     if not found.closed:
         note = f"the loops of the file do not close, and each joint is taken as it stands on its first part: {found}"
         return tuple(parts), replace(exported, notes=(*exported.notes, note))
@@ -69,6 +73,13 @@ def closed_export(
         notes.append(f"the assembled pose is beyond the limits of {listed(beyond)}")
     there = tuple(moved(part, found.places[part.name]) for part in parts)
     return there, replace(exported, constraints=constraints, notes=(*exported.notes, *notes))
+
+
+def _leaders(exported: Exported) -> set[str]:
+    """Name the coordinates that others follow with an offset, and that follow none: a coupling gives its first one."""
+    following = {coupling.coordinates[0] for coupling in exported.couplings}
+    shifted = [coupling for coupling in exported.couplings if float(coupling.offset)]
+    return {name for coupling in shifted for name in coupling.coordinates[1:]} - following
 
 
 def _closed(mechanism: Mechanism, *ways: list[str]) -> Reassembly:

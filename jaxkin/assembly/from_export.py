@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
-from itertools import count
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from jaxkin._names import free_name
 from jaxkin.assembly.exported import Constraint, Exported
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
@@ -174,7 +174,7 @@ def _joints(
     for several in _between(assembly, said, groups, constraints):
         whole = len(several) > 1 and not any(each.limits or each.pitch or each.name in driven for each in several)
         for name, found in _joints_of_two(several, noise, notes, whole):
-            unique = next(each for each in _numbered(name) if each not in taken)
+            unique = free_name(name, taken)
             taken.add(unique)
             evidence = found.evidence or Evidence(EvidenceKind.EXPORT)
             result.append(Inference(found.parts, evidence, replace(found, name=unique)))
@@ -222,8 +222,3 @@ def _evidence(several: Sequence[Constraint], notes: list[str], noise: Noise) -> 
 
 def _told(several: Sequence[Constraint]) -> str:
     return " and ".join(each.text for each in several)
-
-
-def _numbered(name: str) -> Iterator[str]:
-    """Yield the name, then "name#2", "name#3", ..."""
-    return (name if number == 1 else f"{name}#{number}" for number in count(1))

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from jaxkin._names import free_name
 from jaxkin.assembly.at_rest import left_at_rest
 from jaxkin.assembly.ignored_contacts import check_pairs, without
 from jaxkin.assembly.inference.inference import Inference
@@ -93,7 +94,7 @@ def from_words(
             raise ValueError(f"joint {given.name!r} joins parts that are rigidly connected: {', '.join(given.parts)}")
 
     used = without(contacts, said.ignore)
-    ties = _ties(assembly, body, fixed, inferences)
+    ties = _ties(assembly, body, fixed, inferences, {given.name for given in joints})
     _refuse_loose(assembly, contacts, fixed, [*(c.parts for c in used), *(given.parts for given in (*joints, *ties))])
     moving = [contact for contact in used if body[contact.parts[0]] != body[contact.parts[1]]]
     by_hand = {_pair(given.parts, body): given.name for given in joints}
@@ -168,14 +169,19 @@ def _pair(parts: tuple[str, str], body: Mapping[str, str]) -> frozenset[str]:
 
 
 def _ties(
-    assembly: Assembly, body: Mapping[str, str], fixed: Sequence[str], inferences: Sequence[Inference]
+    assembly: Assembly,
+    body: Mapping[str, str],
+    fixed: Sequence[str],
+    inferences: Sequence[Inference],
+    taken: Collection[str],
 ) -> list[Joint]:
-    """Make a joint without freedoms from the first part of each rigid group to each of the others."""
+    """Make a joint without freedoms from the first part of each rigid group to each of the others, with a name that is
+    not taken."""
     centres = {part.name: part.box.mean(axis=0) for part in assembly.parts}
     known = {part: each.evidence for each in reversed(inferences) if each.joint is None for part in each.parts}
     return [
         joint(
-            f"{first}-{part}",
+            free_name(f"{first}-{part}", taken),
             (first, part),
             JointKind.FIXED,
             (LOWER_PAIRS[0, 0][1],),

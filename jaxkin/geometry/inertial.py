@@ -1,13 +1,17 @@
-"""Mass, centre and inertia that a file gives for a part."""
+"""Mass, centre and inertia that a file gives for a part, and those of solids for a density of one."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.pose import Pose, apply
+
+OPEN = 1e-6
+"""Vector sum of the areas of a closed surface over their sum, up to which it counts as closed: rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,6 +33,37 @@ class Inertial:
     def in_unit(self, factor: float) -> Inertial:
         """Give the centre in another unit of length, `factor` of which are one of the old; mass and inertia stay."""
         return replace(self, centre=factor * self.centre)
+
+
+def sum_of(several: Sequence[Inertial]) -> Inertial:
+    """Add up masses that are rigid with each other, about one origin and in one set of axes; lengths in metres."""
+    mass = sum(each.mass for each in several)
+    if mass == 0:
+        return replace(NONE, inertia=sum((each.inertia for each in several), np.zeros((3, 3))))
+    centre = sum((each.mass * each.centre for each in several), np.zeros(3)) / mass
+    inertia = np.zeros((3, 3))
+    for each in several:
+        d = each.centre - centre
+        inertia += each.inertia + each.mass * (d @ d * np.eye(3) - np.outer(d, d))
+    return Inertial(mass, centre, inertia)
+
+
+def of_density_one(triangles: Float[np.ndarray, "faces 3 3"]) -> Inertial | None:
+    """Compute the volume, as a mass, its centre and its inertia from the surface of a solid; None where it is open.
+
+    Triangles may all be turned inside out.
+    """
+    import trimesh
+
+    middle = (triangles.reshape(-1, 3).min(axis=0) + triangles.reshape(-1, 3).max(axis=0)) / 2
+    centred = triangles - middle  # far from the origin of the world the digits would be lost
+    areas = np.cross(centred[:, 1] - centred[:, 0], centred[:, 2] - centred[:, 0])
+    found = trimesh.triangles.mass_properties(centred, density=1.0, center_mass=None, skip_inertia=False)
+    volume = float(found["volume"])
+    if np.linalg.norm(areas.sum(axis=0)) > OPEN * np.linalg.norm(areas, axis=1).sum() or volume == 0.0:
+        return None
+    inertia = np.sign(volume) * np.asarray(found["inertia"])
+    return Inertial(abs(volume), np.asarray(found["center_mass"]) + middle, inertia)
 
 
 NONE = Inertial(0.0, np.zeros(3), np.zeros((3, 3)))

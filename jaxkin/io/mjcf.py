@@ -18,16 +18,18 @@ from jaxkin.geometry.inertial import NONE, Inertial
 from jaxkin.geometry.pose import Pose
 from jaxkin.io.mjcf_attach import attached
 from jaxkin.io.mjcf_keyframe import at_keyframe
+from jaxkin.io.mjcf_masses import body_masses
 from jaxkin.io.mjcf_shapes import Shapes
 from jaxkin.io.mjcf_text import Compiler, Defaults, included, replicated
 from jaxkin.io.mjcf_ties import Ties
-from jaxkin.io.robot_inertials import inertial
+from jaxkin.io.robot_gravity import gravity_notes
 from jaxkin.io.robot_model import (
     WORLD,
     RobotJoint,
     RobotLink,
     RobotModel,
     Shape,
+    Weighed,
     along,
     direction,
     limits_between,
@@ -63,6 +65,8 @@ class Bodies:
     shapes: dict[str, list[Shape]] = field(default_factory=lambda: {WORLD: []})
     inertials: dict[str, Inertial] = field(default_factory=dict)
     """Of the bodies of which the model says what they weigh, in their frames."""
+    weighed: dict[str, tuple[Weighed, ...]] = field(default_factory=dict)
+    """Of those of which it says what their solids weigh."""
     joints: list[RobotJoint] = field(default_factory=list)
     order: list[str] = field(default_factory=list)
     """Names of the joints in the order of `qpos`; "" for a free one."""
@@ -92,7 +96,7 @@ class _Reader:
         self.defaults = Defaults(root, path.name)
         replicated(root, self.compiler)
         self.shapes = Shapes(root, self.compiler, self.defaults)
-        self.found = Bodies(notes=[*notes, *unknown_parts(root, SECTIONS, path.name)])
+        self.found = Bodies(notes=[*notes, *unknown_parts(root, SECTIONS, path.name), *_gravity(root, path.name)])
 
     def model(self) -> RobotModel:
         """Go through the bodies, then what ties them together and what moves them."""
@@ -117,7 +121,13 @@ class _Reader:
         names = [name for name in found.poses if name != WORLD or WORLD in needed]
         fixed = [*([WORLD] if WORLD in needed else []), *found.held]
         links = tuple(
-            RobotLink(name, found.poses[name], tuple(found.shapes[name]), inertial=found.inertials.get(name))
+            RobotLink(
+                name,
+                found.poses[name],
+                tuple(found.shapes[name]),
+                inertial=found.inertials.get(name),
+                weighed=found.weighed.get(name, ()),
+            )
             for name in names
         )
         notes = (*found.notes, *ties.notes)
@@ -143,8 +153,10 @@ class _Reader:
             if each.tag == "body":
                 self._body(each, body, at, child_class)
             elif each.tag == "geom":
-                shape = self.shapes.shape(each, child_class, where)
-                if shape is not None:
+                shape = self.shapes.drawn(each, child_class, where)
+                if shape is None and self.shapes.is_solid(each, child_class):
+                    self.found.notes.append(f"{where}: it has no size that such a solid has; left out")
+                elif shape is not None:
                     place = np.linalg.inv(self.found.poses[body]) @ at @ shape.pose
                     self.found.shapes[body].append(replace(shape, pose=place))
             elif each.tag == "site" and each.get("name"):
@@ -162,7 +174,14 @@ class _Reader:
         pose = at @ self.compiler.pose(element.attrib, where)
         found.poses[name], found.shapes[name] = pose, []
         own = [*self._own(element, pose, child_class)]
-        self._inertial(element, own, name, where)
+        inverse = np.linalg.inv(pose)
+        said = body_masses([(each, inverse @ at, of) for each, at, of in own], self.shapes, where, found.notes)
+        if isinstance(said, Inertial):
+            found.inertials[name] = said
+        elif said is not None:
+            found.weighed[name] = said
+        if element.get("gravcomp", "0") not in ("0", "0.0"):
+            found.notes.append(f"{where}: its gravcomp is not kept: gravity acts on it as on all others")
         joints = [each for each in own if each[0].tag in ("joint", "freejoint")]
         free = any(
             each.tag == "freejoint" or self.defaults.said(each, of).get("type") == "free" for each, _, of in joints
@@ -175,24 +194,6 @@ class _Reader:
         else:
             self._chain(joints, parent, name, pose)
         self._inside(own, name)
-
-    def _inertial(self, element: Element, own: Sequence[Placed], body: str, where: str) -> None:
-        """Read the mass of a body; where the model has MuJoCo compute it from geoms that weigh, it stays unknown."""
-        found = element.find("inertial")
-        if found is None or self.compiler.said.get("inertiafromgeom") == "true":
-            said = [self.defaults.said(each, of) for each, _, of in own if each.tag == "geom"]
-            if all("0" in (each.get("mass"), each.get("density")) for each in said):
-                self.found.inertials[body] = NONE
-            return
-        where = f"{where}: inertial"
-        mass = float(numbers(found.get("mass"), 1, where)[0])
-        if (full := found.get("fullinertia")) is not None:
-            six = numbers(full, 6, where)
-        else:
-            six = np.concatenate([numbers(found.get("diaginertia"), 3, where), np.zeros(3)])
-        made = inertial(mass, self.compiler.pose(found.attrib, where), six, where, self.found.notes)
-        if made is not None:
-            self.found.inertials[body] = made
 
     def _chain(self, joints: Sequence[Placed], parent: str, body: str, pose: Pose) -> None:
         """Join a body to the one around it by its joints in turn; between two of them is a part without a solid."""
@@ -239,4 +240,13 @@ class _Reader:
         if limited == "false" or "range" not in said or (limited == "auto" and not self.compiler.auto_limits):
             return ()
         low, high = map(float, numbers(said["range"], 2, where) * unit - value)
+        if low >= high:
+            self.found.notes.append(f"{where}: its range {said['range']!r} does not begin below its end; left out")
         return limits_between(low, high) if low < high else ()
+
+
+def _gravity(root: Element, file: str) -> tuple[str, ...]:
+    """Write a note where the gravity of a model is not that which forces are computed with."""
+    vectors = [each.get("gravity") for each in root.iterfind("option") if "gravity" in each.attrib]
+    disabled = any(each.get("gravity") == "disable" for each in root.iterfind("option/flag"))
+    return gravity_notes(file, "0 0 0" if disabled else vectors[-1] if vectors else None)

@@ -6,7 +6,6 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 
-from jaxkin.geometry.pose import inverse
 from jaxkin.io.mjcf_text import Compiler, Defaults
 from jaxkin.io.robot_model import Shape, numbers, placed, quaternion
 
@@ -29,12 +28,20 @@ class Shapes:
             stem = file.replace("\\", "/").rpartition("/")[2].rpartition(".")[0]
             self.meshes[said.get("name", stem)] = said
 
-    def shape(self, geom: Element, child_class: str | None, where: str) -> Shape | None:
-        """Read a solid in the frame that it is written in; None for a plane, and for what is only for collisions."""
+    def drawn(self, geom: Element, child_class: str | None, where: str) -> Shape | None:
+        """Read a solid as `solid` does; None, too, for what is only for collisions."""
         said = self.defaults.said(geom, child_class)
+        return None if group_of(said) >= COLLIDING else self.solid(said, where)
+
+    def is_solid(self, geom: Element, child_class: str | None) -> bool:
+        """Tell whether a geom is of a type that is drawn, and not only for collisions."""
+        said = self.defaults.said(geom, child_class)
+        return said.get("type", "sphere") in SIZES and group_of(said) < COLLIDING
+
+    def solid(self, said: dict[str, str], where: str) -> Shape | None:
+        """Read a solid in the frame that it is written in, from its attributes; None for a plane, and for a size that
+        is none."""
         kind = said.get("type", "mesh" if "mesh" in said and "type" not in said else "sphere")
-        if said.get("group", "0").strip().isdigit() and int(said.get("group", "0")) >= COLLIDING:
-            return None
         pose = self.compiler.pose(said, where)
         if kind == "mesh":
             return self._mesh(said.get("mesh", ""), where, pose)
@@ -59,15 +66,21 @@ class Shapes:
         file = said.get("file", "")
         if self.compiler.strip and "folder" not in said:
             file = file.replace("\\", "/").rpartition("/")[2]
-        reference = placed(
-            quaternion(numbers(said.get("refquat"), 4, where, (1, 0, 0, 0)), where),
-            numbers(said.get("refpos"), 3, where, (0, 0, 0)),
-        )
-        scale = tuple(numbers(said.get("scale"), 3, where, (1, 1, 1)))
+        scale, reference = tuple(numbers(said.get("scale"), 3, where, (1, 1, 1))), None
+        if "refpos" in said or "refquat" in said:
+            turn = quaternion(numbers(said.get("refquat"), 4, where, (1, 0, 0, 0)), where)
+            reference = placed(turn, numbers(said.get("refpos"), 3, where, (0, 0, 0)))
         if not file and "vertex" in said:
-            return Shape(pose @ inverse(reference), "mesh", scale, name, _inline(said, f"{where}: mesh {name!r}"))
+            corners = _inline(said, f"{where}: mesh {name!r}")
+            return Shape(pose, "mesh", scale, name, corners, reference)
         folder = said.get("folder", self.compiler.folder).rstrip("/")  # an attached model lies in one of its own
-        return Shape(pose @ inverse(reference), "mesh", scale, f"{folder}/{file}" if folder else file)
+        return Shape(pose, "mesh", scale, f"{folder}/{file}" if folder else file, reference=reference)
+
+
+def group_of(said: dict[str, str]) -> int:
+    """Return the group of a solid: 0 where none is written."""
+    text = said.get("group", "0").strip()
+    return int(text) if text.isdigit() else 0
 
 
 def _inline(said: dict[str, str], where: str) -> np.ndarray:

@@ -193,5 +193,6 @@ class Defaults:
         """
         name = element.get("class") or child_class or self.main
         if name not in self.classes:
-            raise ValueError(f"{self.file}: {tag(element)}: unknown class {name!r}{nearest(name, self.classes)}")
+            known = [each for each in self.classes if each != WRITTEN_OUT]
+            raise ValueError(f"{self.file}: {tag(element)}: unknown class {name!r}{nearest(name, known)}")
         return self.classes[name].get(key or element.tag, {}) | element.attrib

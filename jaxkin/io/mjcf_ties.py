@@ -82,10 +82,9 @@ class Ties:
                     f"{where} holds {names[0]!r}, which is a freedom of its own here; drive it with {at} to hold it"
                 )
                 continue
-            if len(names) < 2 or stiff or not factors[1:].any():
-                self.notes.append(
-                    f"{where} of {listed(list(map(repr, names)))} is not kept: it ties no two coordinates"
-                )
+            if len({*names}) < 2 or stiff or not factors[1:].any():
+                of = f" of {listed(list(map(repr, names)))}" if names else ""
+                self.notes.append(f"{where}{of} is not kept: it ties no two coordinates")
                 continue
             powers = int(np.flatnonzero(factors)[-1]) + 1
             made = polynomial(names[0], names[1], factors[: max(powers, 2)], name=f"{names[0]} follows {names[1]}")
@@ -125,12 +124,14 @@ class Ties:
     def _loop(self, each: Element, said: dict[str, str], names: Collection[str], where: str) -> RobotJoint:
         """Make the joint of a constraint, closed where the bodies are written unless two sites or a pose say else."""
         kind = KINDS[each.tag]
+        if each.tag == "weld" and float(numbers(said.get("torquescale"), 1, f"{where}: torquescale", (1,))[0]) == 0.0:
+            kind = JointKind.SPHERICAL  # it holds points together, and no orientations
         if "site1" in said or "site2" in said:
             (one, first), (other, second) = (self._site(said.get(key, ""), where) for key in ("site1", "site2"))
         else:
             one, other = self._body(said.get("body1", ""), where), self._body(said.get("body2", WORLD), where)
             anchor = numbers(said.get("anchor"), 3, where, (0, 0, 0))
-            if kind is JointKind.SPHERICAL:
+            if each.tag == "connect":
                 first = second = self.poses[one] @ placed(np.eye(3), anchor)
             else:
                 first = second = self.poses[other] @ placed(np.eye(3), anchor)

@@ -8,10 +8,12 @@ from pathlib import Path
 import numpy as np
 
 from jaxkin._names import listed
-from jaxkin.geometry.pose import apply
+from jaxkin.geometry.inertial import Inertial, sum_of
+from jaxkin.geometry.pose import apply, inverse
 from jaxkin.io.mesh import MESHES
 from jaxkin.io.mesh_nodes import Node, read_several
 from jaxkin.io.robot_model import RobotLink, Shape
+from jaxkin.io.shape_masses import inertial_of
 
 DRAWN = (*MESHES, ".dae")
 """Suffixes of the meshes that links are drawn by. COLLADA is what most robots of ROS look like; the axis that a file of
@@ -60,6 +62,20 @@ class Drawn:
             for name, each in shapes.items()
         }
 
+    def inertial(self, link: RobotLink) -> tuple[Inertial | None, str]:
+        """Add up what the solids of a link weigh, in its frame, metres; None, and why, where that of one is unknown."""
+        self._fetch(each.shape.file for each in link.weighed if _is_file(each.shape))
+        found = []
+        for weighed in link.weighed:
+            corners = self._corners(weighed.shape) if weighed.shape.kind == "mesh" else None
+            if isinstance(corners, str):
+                return None, corners
+            own = inertial_of(weighed, corners)
+            if own is None:
+                return None, f"the surface of mesh {weighed.shape.file!r} is not closed"
+            found.append(own)
+        return sum_of(found), ""
+
     def _corners(self, shape: Shape) -> np.ndarray | str:
         """Return the triangles (n, 3, 3) of a shape, in its frame, metres; or why there are none."""
         if shape.kind != "mesh":
@@ -67,6 +83,8 @@ class Drawn:
         found = self._read[shape.file] if shape.corners is None else shape.corners
         if isinstance(found, str):
             return found
+        if shape.reference is not None:
+            found = apply(inverse(shape.reference), found)
         corners = found * np.array(shape.size or (1.0, 1.0, 1.0))
         return corners[:, ::-1] if np.prod(shape.size or (1.0,)) < 0 else corners
 
@@ -83,6 +101,8 @@ class Drawn:
         for prefix in PREFIXES:
             rest = rest.removeprefix(prefix)
         rest = rest.replace("\\", "/").lstrip("/")
+        if not Path(rest).suffix:
+            return f"mesh {name!r} is not there"
         if Path(rest).suffix.lower() not in DRAWN:
             return f"mesh {name!r} is not read: its format is none of {', '.join(DRAWN)}"
         shorter = rest.partition("/")[2]  # without the name of the package

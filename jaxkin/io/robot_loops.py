@@ -83,7 +83,7 @@ def unread_beside(urdf: Path) -> tuple[str, ...]:
 
     A YAML file without a key of `YAML_KEYS`, such as one of a controller, or that cannot be read, is none.
     """
-    found = [each for suffix in YAML_SUFFIXES if (each := urdf.with_suffix(suffix)).is_file() and _has_loops(each)]
+    found = [each for suffix in YAML_SUFFIXES if (each := urdf.with_suffix(suffix)).is_file() and has_loops(each)]
     return tuple(
         f"{each.name}: this file of loops is beside {urdf.name}, and is not read: give --loops "
         f"{shlex.quote(str(each))}, in Python jk.load(..., loops={str(each)!r}), or in a study the key loops beside "
@@ -92,7 +92,8 @@ def unread_beside(urdf: Path) -> tuple[str, ...]:
     )
 
 
-def _has_loops(path: Path) -> bool:
+def has_loops(path: Path) -> bool:
+    """Tell whether a file is one of loops: YAML that can be read, with one of `YAML_KEYS`."""
     try:
         return any(read_yaml(path, YAML_KEYS).get(key) for key in YAML_KEYS)
     except (ValueError, OSError):

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 from xml.etree.ElementTree import Element
 
 import numpy as np
@@ -39,6 +40,17 @@ class Shape:
     """Of a mesh, as the robot file names it."""
     corners: np.ndarray | None = None
     """Triangles (n, 3, 3) of a mesh that the robot file holds itself, metres before its scales."""
+    reference: Pose | None = None
+    """Of a mesh: the frame of the solid, in that of its file, before its scales; None where they are one."""
+
+
+class Weighed(NamedTuple):
+    """What one solid of a link weighs."""
+
+    shape: Shape
+    amount: float
+    """Its mass in kilograms, or its density in kilograms per cubic metre."""
+    is_mass: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +66,8 @@ class RobotLink:
     """What it collides with: drawn where nothing that is seen of it can be read."""
     inertial: Inertial | None = None
     """In the frame of the link, metres; None where the file says nothing of its mass."""
+    weighed: tuple[Weighed, ...] = ()
+    """The solids whose masses are that of the link, where `inertial` is None and the file says what they weigh."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +122,7 @@ def numbers(text: str | None, count: int, where: str, default: Sequence[float] |
     if text is None and default is not None:
         return np.array(default, float)
     try:
-        found = np.array((text or "").split(), float)
+        found = np.array((text or "").replace("_", "?").split(), float)  # Python reads 1_0 as ten
     except ValueError:
         found = np.empty(0)
     if len(found) != count or not np.all(np.abs(found) <= LARGEST):

@@ -12,6 +12,7 @@ import numpy as np
 from jaxkin._names import listed
 from jaxkin.assembly.close_export import closed_export
 from jaxkin.assembly.exported import Constraint, Exported
+from jaxkin.geometry.inertial import Inertial
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import apply
 from jaxkin.io.names import cleaned, unique
@@ -41,13 +42,16 @@ def assembled(model: RobotModel, path: Path, seconds: float | None) -> tuple[tup
     model = _held(model, path.name)
     drawn = Drawn(path, model.links, seconds)
     mark = MARK * _extent(model)
-    parts = tuple(_part(link, link_names[link.name], drawn.solids[link.name], mark) for link in model.links)
+    weighed, unknown = _weighed(model, drawn, path.name)
+    parts = tuple(
+        _part(link, link_names[link.name], drawn.solids[link.name], mark, weighed[link.name]) for link in model.links
+    )
     constraints = [_constraint(each, joint_names[each.name], link_names) for each in model.joints]
     exported = Exported(
         fixed=tuple(link_names[name] for name in model.fixed),
         rigid=(),
         constraints=tuple(constraints),
-        notes=(*model.notes, *drawn.notes),
+        notes=(*model.notes, *drawn.notes, *unknown),
         motors=tuple(_renamed(name, joint_names) for name in model.motors),
         couplings=tuple(
             replace(each, coordinates=tuple(_renamed(name, joint_names) for name in each.coordinates))
@@ -103,10 +107,20 @@ def _extent(model: RobotModel) -> float:
     return max(LEAST_EXTENT, float(np.ptp(points, axis=0).max()))
 
 
-def _part(link: RobotLink, name: str, solids: list[np.ndarray], mark: float) -> Part:
+def _weighed(model: RobotModel, drawn: Drawn, file: str) -> tuple[dict[str, Inertial | None], list[str]]:
+    """Find what each link weighs, in its frame, metres; None, and a note, where that of a solid is unknown."""
+    found, notes = {link.name: link.inertial for link in model.links}, []
+    for link in model.links:
+        if link.weighed:
+            found[link.name], why = drawn.inertial(link)
+            notes += [f"{file}: the mass of {link.name!r} is unknown: {why}"] if why else []
+    return found, notes
+
+
+def _part(link: RobotLink, name: str, solids: list[np.ndarray], mark: float, weighs: Inertial | None) -> Part:
     """Make a part of a link and its solids, in the world; a small box at its origin where there are none."""
     notes = () if solids or not (link.shapes or link.collisions) else ("no file of its solid",)
     corners = np.concatenate(solids) if solids else triangles_of(Shape(np.eye(4), "box", (mark,) * 3))
-    inertial = None if link.inertial is None else link.inertial.moved(link.pose)
+    inertial = None if weighs is None else weighs.moved(link.pose)
     triangles, is_solid = apply(link.pose, corners), bool(solids)
     return Part(name, (), triangles, notes=notes, original_name=link.name, inertial=inertial, is_solid=is_solid)

@@ -11,6 +11,7 @@ from jaxkin._names import nearest
 from jaxkin.geometry.inertial import NONE
 from jaxkin.geometry.pose import Pose
 from jaxkin.io.robot_couplings import follower
+from jaxkin.io.robot_gravity import gravity_notes
 from jaxkin.io.robot_inertials import sdf_inertial
 from jaxkin.io.robot_model import (
     WORLD,
@@ -72,6 +73,7 @@ class _Reader:
         included(self.top, path.parent, self.file)
         if world is not None:
             self.notes += unknown_parts(world, WORLD_PARTS, self.file)
+            self.notes += gravity_notes(self.file, world.findtext("gravity"))
         self.version = root.get("version", "1.7")
         self.links: dict[str, RobotLink] = {WORLD: RobotLink(WORLD, np.eye(4))}
         self.joints: list[RobotJoint] = []
@@ -152,9 +154,9 @@ class _Reader:
         own = frames.in_model(each.get("name", ""))
         axes = [(axis, self._axis(axis, own, frames, where)) for axis in (each.find("axis"), each.find("axis2"))]
         kind, text = KINDS[said], f"{said} {name!r}"
-        for axis, _ in axes:
+        for number, (axis, _) in enumerate(axes, start=1):
             if axis is not None and (mimic := axis.find("mimic")) is not None:
-                self.mimics.append((name, prefix, mimic, where))
+                self.mimics.append((f"{name} {number}" if said == "revolute2" else name, prefix, mimic, where))
         (first, one), (second, other) = axes
         turn = np.eye(3)
         limits: Limits = ()
@@ -193,11 +195,10 @@ class _Reader:
     ) -> Coupling | None:
         """Make the coupling `name = multiplier (leader - reference) + offset`; ValueError for an unknown leader."""
         leader = prefix + mimic.get("joint", "")
+        if f"{leader} 1" in joints:  # of two axes, each of which is a joint here
+            leader = f"{leader} {2 if mimic.get('axis') == 'axis2' else 1}"
         if leader not in joints:
             raise ValueError(f"{where}: mimic names the unknown joint {leader!r}{nearest(leader, joints)}")
-        if name not in joints:
-            self.notes.append(f"{where}: mimic is left out: the joint has two axes, each a joint of its own here")
-            return None
         factor, offset, reference = (
             float(numbers(mimic.findtext(key), 1, where, (none,))[0])
             for key, none in (("multiplier", 1), ("offset", 0), ("reference", 0))

@@ -10,6 +10,7 @@ import numpy as np
 from jaxkin.assembly.wheels import wheels_of
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.part import size
+from jaxkin.linkage.coordinates import coordinates
 from jaxkin.mechanism.drive_plan import plan_drive
 from jaxkin.mobility.loop_freedoms import loop_freedoms
 from jaxkin.mobility.mobility import names
@@ -49,13 +50,14 @@ def useful_coordinates(mechanism: Mechanism) -> list[str]:
 def small_drive(mechanism: Mechanism) -> dict[str, str]:
     """Return small ranges for coordinates that determine the motion of solids; none where nothing can be driven.
 
-    These are those that the mobility names, but where one of them moves the others by far more than itself: then the
-    one that does so least. Wheels, which move nothing else, come last and stay as they are, and so does what is locked.
+    These are the motors, where they do so; else those that the mobility names, but where one of them moves the others
+    by far more than itself: then the one that does so least. Wheels, which move nothing else, come last and stay as
+    they are, and so does what is locked.
     """
     if opening(mechanism.linkage, mechanism.unit) is not None:
         return {}
     found = mechanism.mobility()
-    driven = found.drivable
+    driven = _motors(mechanism, len(found.drivable)) or found.drivable
     if len(driven) == 1 and _shares(mechanism, driven)[0] < _POOR:
         others = [name for name in useful_coordinates(mechanism) if can_drive(mechanism, [name])]
         driven = (max(others, key=lambda name: _shares(mechanism, [name])[0], default=driven[0]),)
@@ -63,6 +65,12 @@ def small_drive(mechanism: Mechanism) -> dict[str, str]:
     resting = {*turning} if len(turning) < len(driven) else set()
     still = {name: f"0:0:{_COUNT}" for name in driven if name in resting | _locked(mechanism)}
     return small_ranges(mechanism, [name for name in driven if name not in still]) | still
+
+
+def _motors(mechanism: Mechanism, count: int) -> tuple[str, ...]:
+    """Name the coordinates of the motors, if they are as many as `count` and can be driven together."""
+    driven = tuple(coordinates(mechanism.linkage, mechanism.motors)) if mechanism.motors else ()
+    return driven if len(driven) == count and can_drive(mechanism, driven) else ()
 
 
 def _locked(mechanism: Mechanism) -> set[str]:

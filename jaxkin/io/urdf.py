@@ -192,6 +192,7 @@ class _Reader:
         name, where = each.get("name", ""), f"{self.file}: {tag(each)}: mimic"
         if found is None:
             return None
+        self.notes += [f"{where}: a further one is left out" for _ in each.findall("mimic")[1:]]
         leader = found.get("joint", "")
         if leader not in joints:
             self.notes.append(f"{where} names the unknown joint {leader!r}{nearest(leader, joints)}; left out")

@@ -25,7 +25,7 @@ from jaxkin.geometry.units import METRES
 from jaxkin.io.names import unique
 from jaxkin.io.numbers import written
 from jaxkin.io.robot_inertials import SIX
-from jaxkin.io.robot_loops import SPHERICAL
+from jaxkin.io.robot_loops import SPHERICAL, has_loops
 from jaxkin.io.robot_model import UNLIMITED, WORLD
 from jaxkin.io.single_motions import BALL, SLIDE, SingleMotion, coordinate_names, coordinate_scale, single_motions
 from jaxkin.io.writable import check_robot
@@ -69,6 +69,11 @@ def write_urdf(mechanism: Mechanism, path: str | os.PathLike[str], *, masses: Ma
     writer = _Writer(mechanism, target.stem, written_inertials(mechanism, masses))
     ElementTree.indent(writer.root)
     loops = target.with_suffix(".yaml")
+    old = loops.is_file() and has_loops(loops)
+    if writer.loops and loops.exists() and not old:
+        raise ValueError(
+            f"{loops} is there, and no file of loops, which it would become: choose another name for {target.name}"
+        )
     if writer.meshes:
         target.with_name(writer.folder).mkdir(exist_ok=True)
     with ExitStack() as files:
@@ -79,8 +84,8 @@ def write_urdf(mechanism: Mechanism, path: str | os.PathLike[str], *, masses: Ma
         ElementTree.ElementTree(writer.root).write(
             files.enter_context(whole(target)), encoding="utf-8", xml_declaration=True
         )
-    if not writer.loops:
-        loops.unlink(missing_ok=True)  # of an earlier mechanism
+    if not writer.loops and old:
+        loops.unlink()  # of an earlier mechanism
     return target
 
 

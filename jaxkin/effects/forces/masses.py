@@ -11,9 +11,10 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin._arguments import by_name, check_mechanism
+from jaxkin._arguments import by_name, check_mechanism, one_number
 from jaxkin._names import closest, match_parts, nearest
 from jaxkin._traced import traced
+from jaxkin.geometry.inertial import of_density_one
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.units import METRES
 from jaxkin.mechanism.mechanism import Mechanism
@@ -37,9 +38,6 @@ DENSITIES = {
     "wood": 600.0,
 }
 """Material -> usual density, kg/m^3, as handbooks round it; a certain alloy may be a few percent off."""
-
-OPEN = 1e-6
-"""Vector sum of the areas of a closed surface over their sum, up to which it counts as closed: rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -197,30 +195,21 @@ def _of_solid(part: Part, density: Any, metre: float) -> tuple[Any, Any, Any]:
 
 def _volume(part: Part) -> tuple[float, np.ndarray, np.ndarray]:
     """Compute volume, centre and inertia for a density of one, unit of the part; ValueError for open surfaces."""
-    import trimesh
-
-    middle = part.box.mean(axis=0)  # far from the origin of the world the digits would be lost
-    triangles = part.triangles - middle
-    areas = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    found = trimesh.triangles.mass_properties(triangles, density=1.0, center_mass=None, skip_inertia=False)
-    volume = float(found["volume"])
-    if np.linalg.norm(areas.sum(axis=0)) > OPEN * np.linalg.norm(areas, axis=1).sum() or volume == 0.0:
+    found = of_density_one(part.triangles)
+    if found is None:
         raise ValueError(
             f"the surface of {part.name!r} is not closed, so that its volume is unknown: give its mass, "
             f"given={{{part.name!r}: jk.Mass(0.3, centre=(x, y, z), inertia=...)}}"
         )
-    return abs(volume), np.asarray(found["center_mass"]) + middle, np.sign(volume) * np.asarray(found["inertia"])
+    return found.mass, found.centre, found.inertia
 
 
 def _given(name: str, given: Any, part: Part | None, metre: float) -> tuple[Any, Any, Any]:
     """Complete mass, centre and inertia of a part, as given, from its solid."""
     given = given if isinstance(given, Mass) else Mass(given)
-    if (
-        isinstance(given.mass, str)
-        or np.shape(given.mass) != ()
-        or (not traced(given.mass) and not (np.isfinite(given.mass) and given.mass >= 0))
-    ):
-        raise ValueError(f"the mass of {name!r} must be one number of kilograms, got {given.mass!r}")
+    kilograms = "one number of kilograms"
+    if not traced(one_number(given.mass, f"the mass of {name!r}", kilograms)) and given.mass < 0:
+        raise ValueError(f"the mass of {name!r} must be {kilograms}, got {given.mass!r}")
     none = not traced(given.mass) and given.mass == 0
     shape = None
     if part is not None and not none and (given.centre is None or given.inertia is None):
@@ -236,11 +225,11 @@ def _given(name: str, given: Any, part: Part | None, metre: float) -> tuple[Any,
             f"the mass of {name!r} needs a centre, as it has no solid: jk.Mass({given.mass!r}, centre=(x, y, z))"
         )
     if given.inertia is not None:
-        single = np.shape(given.inertia) == ()
-        xp = jnp if traced(given.inertia) else np
-        inertia = _shaped(
-            name, "inertia", xp.asarray(given.inertia, float) * xp.eye(3) if single else given.inertia, (3, 3)
-        )
+        inertia = given.inertia
+        if np.shape(inertia) == ():
+            expected = "one number, or a matrix (3, 3), kg m^2"
+            inertia = one_number(inertia, f"the inertia of {name!r}", expected) * np.eye(3)
+        inertia = _shaped(name, "inertia", inertia, (3, 3))
         _check_inertia(name, inertia)
     elif shape is not None:
         inertia = given.mass / shape[0] * shape[2] * metre**2

@@ -102,3 +102,14 @@ def test_open_solids_have_no_mass():
     with pytest.raises(ValueError, match="the surface of 'arm' is not closed"):
         jk.masses(pendulum(opened), 1000)
     assert jk.masses(pendulum(opened), given={"arm": jk.Mass(1.0, (0, 0, 0), 0.0)}).total == 1.0
+
+
+@pytest.mark.parametrize("mass", [None, 1 + 2j, {"mass": 1.0}, jk.Mass(1.0), -1.0])
+def test_a_mass_that_is_no_number_is_told_with_its_part(mass):
+    with pytest.raises(ValueError, match="the mass of 'arm' must be one number of kilograms, got"):
+        jk.masses(pendulum(box()), given={"arm": jk.Mass(mass)})
+
+
+def test_an_inertia_that_is_no_number_is_told_with_its_part():
+    with pytest.raises(ValueError, match="the inertia of 'arm' must be one number, or a matrix"):
+        jk.masses(pendulum(box()), given={"arm": jk.Mass(1.0, (0, 0, 0), "heavy")})

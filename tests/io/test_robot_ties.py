@@ -1,0 +1,97 @@
+"""What ties joints of robot files: leaders that keep their zero, joints of two axes, welds of points, names in use."""
+
+import numpy as np
+import pytest
+
+import jaxkin as jk
+
+LINKS = "".join(f"<link name='{name}'/>" for name in "abcd")
+THREE = f"""<robot name='r'>{LINKS}
+<joint name='j1' type='revolute'><parent link='a'/><child link='b'/><axis xyz='0 0 1'/>
+<limit lower='-1' upper='1'/></joint>
+<joint name='j2' type='revolute'><parent link='b'/><child link='c'/><origin xyz='1 0 0'/><axis xyz='0 0 1'/>
+<limit lower='-3' upper='3'/><mimic joint='j1' multiplier='-2' offset='.25'/></joint>
+<joint name='j3' type='revolute'><parent link='c'/><child link='d'/><origin xyz='1 0 0'/><axis xyz='0 0 1'/>
+<limit lower='-9' upper='9'/><mimic joint='j2' multiplier='3' offset='-1'/></joint>
+%s</robot>"""
+
+
+@pytest.mark.parametrize("moved", ["", "<transmission name='t'><joint name='j1'/></transmission>"])
+def test_a_leader_keeps_its_zero(moved, tmp_path):
+    """With j1 = u: j2 = 0.25 - 2 u and j3 = 3 j2 - 1, whether the file says that j1 is moved or not."""
+    (tmp_path / "arm.urdf").write_text(THREE % moved)
+    assembly = jk.load(tmp_path / "arm.urdf")
+    mechanism = assembly.mechanism()
+    assert mechanism.joints["j1"].limits == ((-1.0, 1.0),)
+    values = {name: own[0] for name, own in assembly.exported.joint_values.items()}
+    np.testing.assert_allclose([values[name] for name in ("j1", "j2", "j3")], [0, 0.25, -0.25], atol=1e-12)
+    u = np.linspace(-0.5, 0.5, 5)
+    motion = mechanism.sweep({"j1": u}, throw=True)
+    # the assembled pose has j1 + j2 + j3 = 0, from where transforms are counted
+    turned = u + (0.25 - 2 * u) + (3 * (0.25 - 2 * u) - 1)
+    expected = np.stack([np.cos(turned), np.sin(turned)], axis=1)
+    np.testing.assert_allclose(motion.transforms["d"][:, :2, 0], expected, atol=1e-12)
+
+
+def test_a_joint_may_be_called_as_a_weld_is(tmp_path):
+    (tmp_path / "arm.urdf").write_text(
+        f"<robot name='r'>{LINKS}<joint name='b-c' type='continuous'><parent link='a'/><child link='b'/>"
+        "<axis xyz='0 0 1'/></joint><joint name='x' type='fixed'><parent link='b'/><child link='c'/></joint>"
+        "<joint name='y' type='continuous'><parent link='c'/><child link='d'/><axis xyz='0 0 1'/></joint></robot>"
+    )
+    mechanism = jk.load(tmp_path / "arm.urdf").mechanism()
+    assert {each.name: each.parts for each in mechanism.all_joints} == {
+        "b-c": ("a", "b"), "y": ("c", "d"), "b-c#2": ("b", "c")
+    }  # fmt: skip
+
+
+def test_a_second_mimic_is_told(tmp_path):
+    (tmp_path / "arm.urdf").write_text(
+        (THREE % "").replace("<mimic joint='j1'", "<mimic joint='j3'/><mimic joint='j1'")
+    )
+    assert any("a further one is left out" in note for note in jk.load(tmp_path / "arm.urdf").mechanism().notes)
+
+
+def test_a_joint_of_sdf_may_follow_the_second_axis_of_another(tmp_path):
+    (tmp_path / "arm.sdf").write_text(
+        "<sdf version='1.10'><model name='m'><link name='a'/><link name='b'/>"
+        "<joint name='j' type='revolute2'><parent>world</parent><child>a</child><axis><xyz>0 0 1</xyz></axis>"
+        "<axis2><xyz>1 0 0</xyz></axis2></joint><joint name='k' type='revolute'><parent>a</parent><child>b</child>"
+        "<axis><xyz>0 0 1</xyz><mimic joint='j' axis='axis2'><multiplier>2</multiplier></mimic></axis></joint>"
+        "</model></sdf>"
+    )
+    mechanism = jk.load(tmp_path / "arm.sdf").mechanism()
+    motion = mechanism.sweep({"j 1": np.zeros(3), "j 2": np.array([0.0, 0.2, 0.4])}, throw=True)
+    np.testing.assert_allclose(motion.coordinates["k"][:, 0], [0.0, 0.4, 0.8], atol=1e-12)
+
+
+@pytest.mark.parametrize(("scale", "freedoms"), [("0", 1), ("1", 0)])
+def test_a_weld_without_torque_holds_a_point(scale, freedoms, tmp_path):
+    """Three hinges in a row and the ground: a plane loop of four hinges, or one that is welded."""
+    links = "".join(
+        f"<body name='{name}' pos='{x} {x} 0'><joint axis='0 0 1'/>" for name, x in (("a", 0), ("b", 1), ("c", 2))
+    )
+    weld = f"<weld body1='c' torquescale='{scale}'/>"
+    text = f"<mujoco><worldbody>{links}{'</body>' * 3}</worldbody><equality>{weld}</equality></mujoco>"
+    (tmp_path / "loop.xml").write_text(text.replace("pos='2 2 0'", "pos='1 -1 0'"))
+    assert jk.load(tmp_path / "loop.xml").mechanism().mobility().freedoms == freedoms
+
+
+def test_a_file_of_somebody_else_is_not_taken_away(tmp_path):
+    (tmp_path / "arm.urdf").write_text(THREE % "")
+    mechanism = jk.load(tmp_path / "arm.urdf").mechanism()
+    other = tmp_path / "new.yaml"
+    other.write_text("controller: {kp: 3}\n")
+    jk.write_urdf(mechanism, tmp_path / "new.urdf")
+    assert other.read_text() == "controller: {kp: 3}\n"
+    pins = {"Agc": (0, 0, 0), "Bca": (1, 0, 0), "Cab": (2, 2, 0), "Dgb": (3, 0, 0)}
+    hinges = [jk.revolute(key[0], key[1], key[2], point=point, axis=(0, 0, 1)) for key, point in pins.items()]
+    loop = jk.Mechanism.build(fixed=["g"], unit="m", joints=hinges)
+    with pytest.raises(ValueError, match=r"new\.yaml is there, and no file of loops"):
+        jk.write_urdf(loop, tmp_path / "new.urdf")
+    assert other.read_text() == "controller: {kp: 3}\n"
+    other.unlink()
+    jk.write_urdf(loop, tmp_path / "new.urdf")
+    assert other.is_file()
+    jk.write_urdf(mechanism, tmp_path / "new.urdf")  # a file of loops of an earlier mechanism is
+    assert not other.exists()
