@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial
-from itertools import accumulate
+from itertools import accumulate, pairwise
 from numbers import Real
 from pathlib import Path
 from typing import Any
@@ -19,7 +19,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin._arguments import numbers, one_number, several
+from jaxkin._arguments import numbers, one_number, several, whole_number
 from jaxkin._files import save_figure
 from jaxkin._names import closest
 from jaxkin._traced import traced
@@ -96,9 +96,10 @@ LAWS: dict[str, Law] = {
 """Name -> displacement over time, both from 0 to 1."""
 
 
-SMALL_JUMP = 100
-"""Jump of a derivative over its largest value that is none, in roots of rounding: derivatives are looked at a root of
-rounding of the shortest segment beside its ends, and those of no law grow by more in that time."""
+SAMPLES = 2001
+"""Times of each segment at which its largest derivatives are looked for: they are right to six digits."""
+DRAWN = 201
+"""Times of each segment at which it is drawn at least."""
 
 
 @dataclass(frozen=True)
@@ -127,14 +128,14 @@ class MotionLaw:
 
     def times(self, poses: int) -> Float[np.ndarray, " poses"]:
         """Make evenly spaced times from the beginning to the end."""
-        return np.linspace(0.0, self.duration, poses)
+        return np.linspace(0.0, self.duration, whole_number(poses, "poses"))
 
     def __call__(self, times: Any, order: int = 0) -> Float[Array, "*times"]:
         """Displacements at one time or some, or with `order` 1, 2, 3 their velocities, accelerations, jerks.
 
         Where a derivative jumps between two segments it is that of the later one.
         """
-        if not isinstance(order, int) or not 0 <= order <= 3:
+        if isinstance(order, bool) or not isinstance(order, int) or not 0 <= order <= 3:
             raise ValueError(f"order must be 0, 1, 2 or 3 (displacement, velocity, acceleration, jerk), got {order!r}")
         return _evaluated(self, order, jnp.asarray(numbers(times, "the times of a motion law"), float))
 
@@ -158,15 +159,19 @@ class MotionLaw:
     def largest(self) -> tuple[float, float, float]:
         """Find the largest velocity, acceleration and jerk without their signs: infinite where the derivative before
         jumps, also from the rest before the law and to that after it."""
-        ends = np.array([0.0, *accumulate(segment.duration for segment in self.segments)])
+        share = np.linspace(0.0, 1.0, SAMPLES)
         root = float(jnp.finfo(self(0.0).dtype).eps) ** 0.5
-        beside = ends + root * min(segment.duration for segment in self.segments) * np.array([[-1.0], [1.0]])
         found, jumps = [], False
         for order in (1, 2, 3):
-            most = float(jnp.abs(self(self.times(2001), order)).max())
+            # of each segment by itself: one may be much shorter than the whole
+            rows = [
+                np.asarray(MotionLaw((Segment(each.law, 1.0, 1.0),))(share, order)) * each.rise / each.duration**order
+                for each in self.segments
+            ]
+            most = max(float(np.abs(row).max()) for row in rows)
             found.append(np.inf if jumps else most)
-            before, after = np.asarray(self(beside.ravel(), order)).reshape(2, -1)
-            jumps |= bool(np.any(np.abs(after - before) > SMALL_JUMP * root * most))
+            ends = np.array([0.0, *(row[end] for row in rows for end in (0, -1)), 0.0]).reshape(-1, 2)
+            jumps |= bool(np.any(np.abs(ends[:, 1] - ends[:, 0]) > root * most))
         velocity, acceleration, jerk = found
         return velocity, acceleration, jerk
 
@@ -174,7 +179,9 @@ class MotionLaw:
         """Draw displacement, velocity, acceleration and jerk over time into a picture file; returns its path."""
         from matplotlib.figure import Figure
 
-        target, times = Path(path), self.times(2001)
+        ends = [0.0, *accumulate(each.duration for each in self.segments)]
+        within = [np.linspace(begin, end, DRAWN) for begin, end in pairwise(ends)]
+        target, times = Path(path), np.unique(np.concatenate([self.times(SAMPLES), *within]))
         figure = Figure(figsize=(7, 7), layout="constrained")
         axes = figure.subplots(4, sharex=True)
         for order, (each, name) in enumerate(

@@ -225,7 +225,8 @@ def tangents_of(motion: Motion, rates: Mapping[str, Any]) -> Inputs:
     check_motion(motion, "rates")
     given = {}
     for key, rate in by_name(rates, "rates", f"{{{next(iter(motion.inputs))!r}: 1.0}}").items():
-        value = rate if isinstance(rate, jax.Array) else numbers(rate, f"the rate of {key!r}")
+        real = isinstance(rate, jax.Array) and not jnp.iscomplexobj(rate)
+        value = rate if real else numbers(rate, f"the rate of {key!r}")
         if value.ndim > 1 or (value.ndim == 1 and len(value) != len(motion)):
             raise ValueError(
                 f"the rate of {key!r} must be one number or one for each of the {len(motion)} poses, got shape "

@@ -55,7 +55,7 @@ def coordinates(linkage: Linkage, keys: Sequence[str]) -> dict[str, tuple[int, i
         joint, index = coordinate(linkage, key)
         name = f"{linkage.joints[joint].name}.{linkage.joints[joint].coordinates[index]}"
         if name in driven:
-            raise ValueError(f"the drive names {name!r} twice; give each coordinate once")
+            raise ValueError(f"{name!r} is named twice; give each coordinate once")
         driven[name] = joint, index
     return driven
 
@@ -122,7 +122,7 @@ def coordinate(linkage: Linkage, key: str) -> tuple[int, int]:
         return names.index(name), joint.coordinates.index(part)
     if len(pair := _pair(linkage, name or key)) > 1:
         raise ValueError(f"{key!r}: there are several joints between these parts, name one of {', '.join(pair)}")
-    raise ValueError(f"there is no joint {key!r} to drive{nearest(name if '.' in key and name else key, names)}")
+    raise ValueError(f"there is no joint {key!r}{nearest(name if '.' in key and name else key, names)}")
 
 
 def _pair(linkage: Linkage, name: str) -> list[str]:

@@ -3,13 +3,14 @@ and which freedoms a drive leaves undriven."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from jaxkin._names import listed
 from jaxkin.joints.evidence import EvidenceKind
+from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.first_order import independent
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
@@ -197,6 +198,21 @@ def undriven_freedoms(linkage: Linkage, driven: Sequence[Coordinate]) -> tuple[s
         for found, columns in _driven_groups(linkage, driven)
         for name in names(linkage, found, drivable(linkage, found, columns, spinning))
     )
+
+
+def resting_freedoms(linkage: Linkage, driven: Collection[str]) -> tuple[str, ...]:
+    """Name the coordinates that a drive ("joint.coordinate") leaves free: in loops, without those of idle freedoms, and
+    outside of loops, without those of parts that only spin."""
+    spinning = {part.name for part in linkage.spinning}
+    in_loops = {joint for group in linkage.structure.loop_groups for joint in group.joints}
+    outside = (
+        f"{joint.name}.{own}"
+        for number, joint in enumerate(linkage.joints)
+        if number not in in_loops and not spinning & {*joint.parts}
+        for own in joint.coordinates
+    )
+    free = undriven_freedoms(linkage, [coordinate(linkage, name) for name in driven])
+    return (*free, *(name for name in outside if name not in driven))
 
 
 def _loops_of(found: LoopFreedoms) -> str:

@@ -16,10 +16,10 @@ from reference.mechanisms import cam, planar_fourbar, rssr_linkage
     "drive, message",
     [
         ({}, "the drive is empty"),
-        ({"a": [0.0]}, "there is no joint 'a' to drive"),
+        ({"a": [0.0]}, "there is no joint 'a'"),
         ({"A.z": [0.0]}, r"joint 'A' \(revolute\) has no coordinate 'z'; it has: phi"),
         ({"A": [0.0, 1.0], "D": [0.0]}, "equal length.*'A.phi': 2, 'D.phi': 1"),
-        ({"A": [0.0], "A.phi": [0.0]}, "names 'A.phi' twice"),
+        ({"A": [0.0], "A.phi": [0.0]}, "'A.phi' is named twice"),
         ({"A": 0.5}, r"one value a pose, got shape \(\); write \[value\]"),
         ({"A": [[0.5]]}, r"got shape \(1, 1\)"),
         ({"A": ["x"]}, "must be real numbers"),

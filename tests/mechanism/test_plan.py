@@ -126,7 +126,7 @@ def test_what_rests_and_what_is_left_free_is_told():
     [
         ("A", r"got the text 'A'; write \['A'\]"),
         ([], "the drive is empty"),
-        (["a"], "there is no joint 'a' to drive"),
+        (["a"], "there is no joint 'a'"),
     ],
 )
 def test_a_drive_that_makes_no_sense_is_refused(drive, message):

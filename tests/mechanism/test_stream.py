@@ -120,7 +120,7 @@ def test_refused():
     mechanism = planar_fourbar(1.0)
     with pytest.raises(ValueError, match="chunk must be a number of poses, 1 or more, got 0"):
         mechanism.stream({"A": [0.0]}, chunk=0)
-    with pytest.raises(ValueError, match="there is no joint 'a' to drive"):
+    with pytest.raises(ValueError, match="there is no joint 'a'"):
         mechanism.stream({"a": [0.0]})
     with pytest.raises(ValueError, match="inside jit, vmap and grad write sweep"):
         jax.jit(lambda turn: [motion.status for motion in mechanism.stream({"A": turn})])(np.zeros(3))

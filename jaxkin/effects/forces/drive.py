@@ -14,6 +14,7 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float, Int
 
+from jaxkin._names import listed
 from jaxkin.effects.forces.balance import tree_wrenches
 from jaxkin.effects.forces.changes import ORDER, ByCoordinate, Changes, Rows, changes, rows_of
 from jaxkin.effects.forces.friction import friction
@@ -45,6 +46,7 @@ from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.known_motion import Inputs, KnownDrive, KnownMotion, known_motion
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.singularity import singular_report
+from jaxkin.mobility.infeasible_drive import resting_freedoms
 from jaxkin.solve.execution.compiler import whole_program
 from jaxkin.solve.status import is_closed_on_branch
 
@@ -84,6 +86,8 @@ class DriveForces:
         power = np.asarray(self.power)
         if np.any(np.nan_to_num(power)):
             lines.append(f"  {'power':<{width}}  {_range(power, 'W')}")
+        if free := resting_freedoms(self.motion.mechanism.linkage, self.forces):
+            lines.append(f"  without a drive, and counted as held: {listed(free)} (by what load, jk.reactions says)")
         lines += [f"  {line}" for line in singular_report(self.motion, ORDER)]
         lines += [f"  {line}" for line in (self.friction.lines() if self.friction else ())]
         return "\n".join(lines)

@@ -14,7 +14,7 @@ from jaxtyping import Bool, Float, Int
 from jaxkin._arguments import by_name, check_mechanism, numbers
 from jaxkin._traced import traced
 from jaxkin.effects.forces.drive import drive_forces
-from jaxkin.effects.forces.given import Applied
+from jaxkin.effects.forces.given import Applied, rows_per_pose
 from jaxkin.effects.forces.masses import Masses
 from jaxkin.effects.forces.reactions import HELD, Reactions, reactions
 from jaxkin.effects.forces.screws import Scale
@@ -145,6 +145,12 @@ def equilibrium(
     drive = by_name(drive, "driven displacements", "{'A': np.linspace(0, 2 * np.pi, 73)}")
     if traced(mechanism, dict(drive), masses, applied):
         raise ValueError("equilibria are found on the host: call jk.equilibrium outside of jit, vmap and grad")
+    loads = [applied] if isinstance(applied, Applied) else applied
+    if rows := next(((each, names) for each in loads if (names := rows_per_pose(each))), None):
+        raise ValueError(
+            f"loads of an equilibrium are the same in all poses, and {type(rows[0]).__name__} has {', '.join(rows[1])} "
+            "with one row a pose: give single numbers, or find where jk.drive_forces vanishes along a sweep"
+        )
     given = {key: np.unique(numbers(some, f"the range of {key!r}").ravel()) for key, some in drive.items()}
     if not given:
         raise ValueError("an equilibrium is found along a driven coordinate: give {'A': np.linspace(0, 2 * np.pi, 73)}")
@@ -189,12 +195,12 @@ def equilibrium(
     growth = beside[len(values) :] - beside[: len(values)]
     order = np.argsort(values)
     values, growth = values[order], growth[order]
-    loads: dict[str, Inputs] = {}
+    held: dict[str, Inputs] = {}
     if _has_others(mechanism, len(drive)) and (len(values) or len(indifferent)):
         poses = posed(np.concatenate([values, inputs[indifferent].ravel()]))
         most = HELD * max(float(np.nanmax(np.abs(forces))), _weight(mechanism, name, masses, gravity))
-        loads = _out_of_balance(reactions(poses, masses, gravity=gravity, applied=applied), most)
-    still = ~np.any([np.zeros(len(values), bool), *(load[: len(values)] != 0 for load in loads.values())], axis=0)
+        held = _out_of_balance(reactions(poses, masses, gravity=gravity, applied=applied), most)
+    still = ~np.any([np.zeros(len(values), bool), *(load[: len(values)] != 0 for load in held.values())], axis=0)
     return Equilibrium(
         name,
         values,
@@ -202,7 +208,7 @@ def equilibrium(
         (growth < 0) & still,
         inputs[indifferent],
         posed(values),
-        {each: float(load.max()) for each, load in loads.items()},
+        {each: float(load.max()) for each, load in held.items()},
         inputs,
         forces,
     )

@@ -117,10 +117,16 @@ def _sliding(linkage: Linkage, moving: Moving, number: int, given: JointFriction
     arm, scale = moving.at.joints[number].point, moving.at.scale
     twist = _twist_in(linkage, moving, number)
     radius = 0.0 if given.radius is None else jnp.asarray(given.radius, float) / scale.size
-    s = jnp.concatenate([velocity_at(twist, arm), radius * twist[:3]])
+    squares = jnp.stack([jnp.sum(each**2, axis=0) for each in (twist, *moving.twists.values())])
+    still = float(jnp.finfo(squares.dtype).eps) * jnp.max(squares, axis=0)
+
+    def moving_part(rate: Float[Array, "3 poses"]) -> Float[Array, "3 poses"]:
+        return jnp.where(jnp.sum(rate**2, axis=0) > still, rate, 0.0)
+
+    # slide and turn each by itself: a hinge turns, however small it is
+    s = jnp.concatenate([moving_part(velocity_at(twist, arm)), radius * moving_part(twist[:3])])
     square = jnp.sum(s**2, axis=0)
-    fastest = [jnp.sum(each**2, axis=0) for each in (twist, *moving.twists.values())]
-    rests = square <= float(jnp.finfo(square.dtype).eps) * jnp.max(jnp.stack(fastest), axis=0)
+    rests = square == 0.0
     smooth = jnp.asarray(given.smooth, float) / scale.size
     rate = jnp.where(rests, 1.0, square) + smooth**2
     direction = -jnp.where(rests, 0.0, 1.0) * s / jnp.sqrt(rate)

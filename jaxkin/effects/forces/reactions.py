@@ -74,7 +74,7 @@ class Reactions:
     torques: Mapping[str, Float[Array, "poses 3"]]
     """For each joint the torque on part 2 about its point, world axes, newton metres."""
     drives: dict[str, Float[Array, " poses"]]
-    """Forces of the drives, as those of `jk.drive_forces`, found from the same balance."""
+    """Forces of the drives, from the same balance: those of `jk.drive_forces` where nothing is `held`."""
     held: Mapping[str, Float[Array, "poses _"]]
     """For each joint the load that would hold its coordinates without a drive, newton metres or newtons: zero to
     rounding unless a freedom that nothing drives, an idle one too, is out of balance, or a pose is singular. It is part
@@ -138,10 +138,15 @@ class Reactions:
         return draw_lines(order, np.stack([forces[name] for name in order]), "force (N)", "joint reactions", Path(path))
 
     def save(self, path: str | Path) -> Path:
-        """Write forces and torques as comma-separated values, one row a pose; returns the path."""
-        names, rows = [], []
+        """Write forces, torques and the points that these are about as comma-separated values, one row a pose; returns
+        the path."""
+        names, rows, length = [], [], self.motion.mechanism.unit or "m"
         for name in self.forces:
-            for what, unit, values in (("force", "N", self.forces), ("torque", "N m", self.torques)):
+            for what, unit, values in (
+                ("force", "N", self.forces),
+                ("torque", "N m", self.torques),
+                ("point", length, self.points),
+            ):
                 names += [f"{name} {what} {axis} [{unit}]" for axis in "xyz"]
                 rows.append(np.asarray(values[name], float).T)
         return save_rows(names, np.concatenate(rows), Path(path))

@@ -81,10 +81,10 @@ def transmission(motion: Motion, output: str, *, joint: str | None = None) -> Tr
     """Find how motion and force go from the one driven coordinate of a motion to another coordinate.
 
     `output` is "joint" or "joint.coordinate"; the part that moves there, part 2 of its joint unless that is fixed, is
-    the output part. Without weight and friction, the advantage is the inverse of the ratio of rates. The transmission
-    angle is measured at `joint`, by default the one other joint of the output part: there a load on the output puts a
-    force on the part, and its angle from the velocity that the output gives the point says how much of it moves the
-    output.
+    the output part. Without weight and friction, the advantage is the inverse of the ratio of rates in radians and
+    metres. The transmission angle is measured at `joint`, by default the one other joint of the output part: there a
+    load on the output puts a force on the part, and its angle from the velocity that the output gives the point says
+    how much of it moves the output.
 
     Works inside `jit`, `vmap` and `grad`. Raises ValueError for motions with several drives, an output that is driven,
     and where the joint must be named.

@@ -176,3 +176,11 @@ def test_bad_ranges_are_refused():
         jk.equilibrium(mechanism, {"A": np.zeros(1)})
     with pytest.raises(ValueError, match="nothing acts"):
         jk.equilibrium(pendulum(), {"A": np.linspace(0, 1, 3)})
+
+
+def test_loads_with_one_row_a_pose_are_refused():
+    """The poses of an equilibrium are sought, so that rows of a range belong to none of them."""
+    angles = np.linspace(-3.0, 3.0, 25)
+    own = jk.masses(pendulum(), given={"arm": jk.Mass(2.0, (0.3, 0.4, 0.0))})
+    with pytest.raises(ValueError, match="the same in all poses, and JointLoad has load with one row a pose"):
+        jk.equilibrium(pendulum(), {"A": angles}, own, applied=jk.joint_load("A", np.cos(angles)))

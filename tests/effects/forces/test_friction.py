@@ -223,3 +223,22 @@ def test_wrong_friction_says_what_to_write():
         jk.joint_friction("P", -1)
     with pytest.raises(ValueError, match="the radius of the friction of 'P' must be above zero"):
         jk.joint_friction("P", 0.1, radius=0)
+
+
+@pytest.mark.filterwarnings("ignore:jaxkin computes in float32")
+@pytest.mark.parametrize("x64", [True, False])
+def test_a_small_hinge_of_a_large_mechanism_rubs(x64):
+    """The weight m g of what hangs on a hinge gives mu m g r, whatever the size of the rest; forces to single precision
+    of the torque of the large arm."""
+    with jax.enable_x64(x64):
+        hinges = [
+            jk.revolute("A", "base", "arm", point=(0, 0, 0), axis=Z),
+            jk.revolute("B", "arm", "bob", point=(3000, 0, 0), axis=Z),
+        ]
+        large = jk.Mechanism.build(fixed=["base"], unit="mm", joints=hinges)
+        own = jk.masses(large, given={"arm": 0, "bob": jk.Mass(10.0, centre=(3000, 0, 0))})
+        motion = large.sweep({"A": np.zeros(3), "B": np.zeros(3)})
+        rubs, rates = jk.joint_friction("B", 0.2, radius=1.0), {"A": 1e-3, "B": 1e-4}
+        found = jk.drive_forces(motion, own, gravity=(0, -9.81, 0), rates=rates, applied=rubs)
+    assert not np.any(found.friction.rests["B"])
+    np.testing.assert_allclose(found.forces["B.phi"], 0.2 * 10 * 9.81 * 1e-3, rtol=1e-3)

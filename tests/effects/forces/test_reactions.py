@@ -235,3 +235,20 @@ def test_many_poses_are_those_of_few():
         np.testing.assert_allclose(every.torques[name][few], torques, atol=1e-8 * np.abs(torques).max())
     drive = jk.drive_forces(motion, masses, **given(slice(None))).forces["A.phi"]
     np.testing.assert_allclose(every.drives["A.phi"], drive, atol=1e-8 * np.abs(drive).max())
+
+
+def test_what_has_no_drive_is_told():
+    """An arm of two links of which one is driven: the other counts as held, with the torque of its weight."""
+    hinges = [
+        jk.revolute("A", "base", "one", point=(0, 0, 0), axis=(0, 0, 1)),
+        jk.revolute("B", "one", "two", point=(100, 0, 0), axis=(0, 0, 1)),
+    ]
+    arm = jk.Mechanism.build(fixed=["base"], unit="mm", joints=hinges)
+    own = jk.masses(arm, given={"one": 0, "two": jk.Mass(1.0, (150, 0, 0))})
+    motion = arm.sweep({"A": np.zeros(2)})
+    found = jk.drive_forces(motion, own, gravity=(0, -10, 0))
+    assert "without a drive, and counted as held: B.phi" in str(found)
+    held = jk.reactions(motion, own, gravity=(0, -10, 0)).held["B"]
+    np.testing.assert_allclose(np.abs(held), 0.5, rtol=1e-9)
+    both = jk.drive_forces(arm.sweep({"A": np.zeros(2), "B": np.zeros(2)}), own)
+    assert "without a drive" not in str(both)
