@@ -1,13 +1,12 @@
 """The space that a part takes up along a motion, as a closed mesh (host code).
 
 The signed distance from the part is sampled once on a grid in its own axes. The part is then placed along the motion,
-with screw motions between the poses, in steps of half a step of the grid, and in a grid in the world the least
+with screw motions between successive poses, in steps of half a step of the grid, and in a grid in the world the least
 distance of all placements is kept. The mesh is where that is zero.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -19,9 +18,9 @@ from jaxkin._arguments import check_motion, one_number
 from jaxkin._files import save_figure, whole
 from jaxkin._names import nearest
 from jaxkin._traced import traced
+from jaxkin.effects.pose_runs import PoseRun, off_between, placements, runs_of, sagitta
 from jaxkin.geometry.isosurface import zero_surface
 from jaxkin.geometry.part import Part
-from jaxkin.geometry.screw_motion import displacement_along, screw_between
 from jaxkin.geometry.signed_distance import BAND, Open, signed_distance
 from jaxkin.mechanism.motion import Motion
 
@@ -33,8 +32,6 @@ STEPS_ACROSS = 80
 at most, and a percent of that edge between them."""
 MAX_POINTS = 60_000_000
 """Points of a grid at most: half a gigabyte for each array of numbers."""
-LARGEST_TURN = np.pi / 2
-"""Turn between two poses up to which what lies between them is filled: beyond, the way between them is a guess."""
 PLACED = 0.5
 """Steps of the grid by which corners move from one placement to the next at most: sharp edges that slide across leave
 notches, of which half remain compared to whole steps."""
@@ -63,7 +60,7 @@ class SweptVolume:
     poses: int
     """Closed poses of the motion."""
     left_out: int
-    """Poses that are not closed (`motion.closed`)."""
+    """Poses that are not closed (`motion.closed`), past which nothing is swept."""
     placements: int
     """Places of the part, those between poses too; the cost grows with their number and the inverse cube of
     `resolution`."""
@@ -96,7 +93,9 @@ class SweptVolume:
         unit = f" {self.unit}" if self.unit else ""
         low, high = (", ".join(f"{x:.5g}" for x in corner) for corner in self.box)
         own = f"{100 * abs(self.lost):.2g} % too {'small' if self.lost > 0 else 'large'}"
-        left = f"; {self.left_out} poses that are not closed are left out" if self.left_out else ""
+        left = (
+            f"; {self.left_out} poses that are not closed are left out, and the way past them" if self.left_out else ""
+        )
         return (
             f"Swept volume of {self.part} over {self.poses} poses{left}\n"
             f"  volume {self.volume:.6g}{f'{unit}^3' if unit else ''}, surface within {self.error:.3g}{unit}: at most "
@@ -152,15 +151,15 @@ def swept_volume(motion: Motion, part: str, *, resolution: float | None = None) 
     `resolution` is the step of a grid of distances, unit of the mechanism; by default an eightieth of the longest edge
     of the box that the part sweeps. Half of it costs up to sixteen times as much. The way between successive poses is
     filled by screw motions, and `SweptVolume.error` includes how far they are off, as told by each pose between its
-    neighbours.
+    neighbours. Nothing is swept between two poses of which those between them are not closed.
 
     Runs on the host. Raises ValueError for a part that is not there, has no solid or an open one, for successive poses
     of which one is a quarter turn from the other, for a grid that is too large, and inside `jit`, `vmap` and `grad`.
     """
-    solid, places, left_out = _given(motion, part)
+    solid, runs, left_out = _given(motion, part)
     corners = solid.outermost
-    moved = np.einsum("pij,cj->pci", places[:, :3, :3], corners) + places[:, None, :3, 3]
-    low, high = moved.min(axis=(0, 1)), moved.max(axis=(0, 1))
+    low = np.min([run.moved.min(axis=(0, 1)) for run in runs], axis=0)
+    high = np.max([run.moved.max(axis=(0, 1)) for run in runs], axis=0)
     step = _step(part, resolution, low, high)
     try:
         distances, first = signed_distance(solid.triangles, step)
@@ -170,14 +169,15 @@ def swept_volume(motion: Motion, part: str, *, resolution: float | None = None) 
             "part from a STEP file"
         ) from None
     # screw motions may bulge out of the box of the poses by their sagitta
-    margin = (BAND + 1.0) * step + _sagitta(moved)
+    margin = (BAND + 1.0) * step + max(map(sagitta, runs))
     origin = low - margin
     shape = tuple((np.ceil((high + margin - origin) / step).astype(int) + 1).tolist())
     field = np.full(shape, BAND * step)
     count = 0
-    for place in _placements(places, moved, step):
-        _add(field, origin, distances, first, step, place)
-        count += 1
+    for run in runs:
+        for place in placements(run, PLACED * step):
+            _add(field, origin, distances, first, step, place)
+            count += 1
     points, triangles = zero_surface(field)
     if not len(triangles):
         raise ValueError(
@@ -189,13 +189,14 @@ def swept_volume(motion: Motion, part: str, *, resolution: float | None = None) 
     mesh = Trimesh(origin + step * points, triangles, process=False)
     alone = Trimesh(*zero_surface(distances), process=False)
     lost = 1.0 - float(alone.volume) * step**3 / solid.volume if len(alone.faces) else 1.0
-    off = OFF * step + _off_between(places, moved, corners) + max((face.bulge for face in solid.faces), default=0.0)
-    counts = len(places), left_out, count
+    between = max(off_between(run, corners) for run in runs)
+    off = OFF * step + between + max((face.bulge for face in solid.faces), default=0.0)
+    counts = sum(len(run.places) for run in runs), left_out, count
     return SweptVolume(part, mesh, step, off, lost, *counts, field, origin, motion.mechanism.unit)
 
 
-def _given(motion: Any, part: str) -> tuple[Part, Float[np.ndarray, "poses 4 4"], int]:
-    """Find the solid of a part, its closed places, and the number of poses left out; ValueError if there are none."""
+def _given(motion: Any, part: str) -> tuple[Part, list[PoseRun], int]:
+    """Find the solid of a part, its closed poses, and the number of those left out; ValueError if there are none."""
     check_motion(motion, "swept volumes")
     if traced(motion):
         raise ValueError("a swept volume is found on the host: ask outside of jit, vmap and grad")
@@ -209,7 +210,7 @@ def _given(motion: Any, part: str) -> tuple[Part, Float[np.ndarray, "poses 4 4"]
     if not closed.any():
         raise ValueError(f"no pose of the motion is closed: {motion}")
     places = np.broadcast_to(np.asarray(motion.transforms[part], float), (len(closed), 4, 4))
-    return solid, places[closed], int((~closed).sum())
+    return solid, runs_of(places, closed, solid.outermost), int((~closed).sum())
 
 
 def _step(part: str, resolution: float | None, low: np.ndarray, high: np.ndarray) -> float:
@@ -228,39 +229,6 @@ def _step(part: str, resolution: float | None, low: np.ndarray, high: np.ndarray
             f"most: write resolution={1.1 * least:.2g}"
         )
     return resolution
-
-
-def _placements(places: np.ndarray, moved: np.ndarray, step: float) -> Iterator[Float[np.ndarray, "4 4"]]:
-    """Yield the poses, and between them those of a screw motion, in which corners move by at most `PLACED` steps."""
-    yield places[0]
-    for number in range(len(places) - 1):
-        velocity = screw_between(places[number], places[number + 1])
-        turn = float(np.linalg.norm(velocity[:3]))
-        if turn > LARGEST_TURN:
-            raise ValueError(
-                f"the part turns by {turn:.2g} rad between the closed poses {number} and {number + 1}, so that the way "
-                "between them is not known: sweep in smaller steps"
-            )
-        far = float(np.linalg.norm(moved[number + 1] - moved[number], axis=-1).max())
-        pieces = max(1, int(np.ceil(far / (PLACED * step))))
-        for piece in range(1, pieces + 1):
-            yield (
-                places[number + 1] if piece == pieces else displacement_along(velocity, piece / pieces) @ places[number]
-            )
-
-
-def _sagitta(moved: Float[np.ndarray, "poses corners 3"]) -> float:
-    """Measure how far an arc of at most a quarter turn between two poses goes beyond its chord: 0.21 of the chord."""
-    return 0.21 * float(np.linalg.norm(np.diff(moved, axis=0), axis=-1).max(initial=0.0))
-
-
-def _off_between(places: np.ndarray, moved: np.ndarray, corners: np.ndarray) -> float:
-    """Measure how far screw motions between poses are off: a quarter of what a pose is off its neighbours' middle."""
-    off = 0.0
-    for before, here, after in zip(places[:-2], moved[1:-1], places[2:], strict=True):
-        middle = displacement_along(screw_between(before, after), 0.5) @ before
-        off = max(off, float(np.linalg.norm(corners @ middle[:3, :3].T + middle[:3, 3] - here, axis=-1).max()))
-    return off / 4
 
 
 def _add(

@@ -8,6 +8,7 @@ cut by at most half a step squared.
 import re
 from dataclasses import replace
 
+import jax
 import numpy as np
 import pytest
 import trimesh
@@ -91,6 +92,33 @@ def test_a_box_that_slides_sweeps_a_prism(along, within):
     assert "Swept volume of box over 2 poses" in text and "60 placements" in text and "too small on this grid" in text
 
 
+def with_open_poses(motion: jk.Motion, *numbers: int) -> jk.Motion:
+    status = np.array(motion.status)
+    status[list(numbers)] = jk.Status.UNREACHABLE
+    return replace(motion, status=jax.numpy.asarray(status))
+
+
+def test_nothing_is_swept_past_poses_that_are_not_closed():
+    """Two prisms, 12 mm long, with 28 mm between them; a pose alone is the box."""
+    motion = box_on_a_slide().sweep({"P": np.array([0.0, 2.0, 20.0, 40.0, 42.0, 50.0, 80.0])})
+    found = jk.swept_volume(with_open_poses(motion, 2, 5), "box", resolution=0.5)
+    # edges cut by at most half a step squared, 0.125 of 208 mm: 26 of 816 mm^3
+    np.testing.assert_allclose(found.volume, (12 + 12 + 10) * 6 * 4, rtol=0.04)
+    assert len(found.mesh.split()) == 3
+    assert (found.poses, found.left_out) == (5, 2)
+    assert "over 5 poses; 2 poses that are not closed are left out, and the way past them" in str(found)
+    np.testing.assert_allclose(found.box, [[-5, -3, -2], [85, 3, 2]], atol=0.25)  # half a step
+
+
+def test_a_turn_past_poses_that_are_not_closed_is_no_step_of_the_motion(arm):
+    """Two poses a third of a turn apart are no neighbours; those that are have the numbers of the motion."""
+    motion = with_open_poses(arm.sweep({"A": np.array([0.0, 1.0, 2.0, 4.0])}), 1)
+    with pytest.raises(ValueError, match="turns by 2 rad between the poses 2 and 3,"):
+        jk.swept_volume(motion, "arm", resolution=4.0)
+    two_balls = jk.swept_volume(with_open_poses(motion, 1, 2), "arm", resolution=2.0)
+    assert len(two_balls.mesh.split()) == 2 and two_balls.placements == 2
+
+
 @pytest.mark.long
 def test_a_bound_that_tells_little_says_which_step_to_write():
     """A rod of 2 x 2 mm: with the step that is said, the bound is less than half of its volume."""
@@ -130,7 +158,7 @@ def test_what_cannot_be_swept_says_why(arm):
         jk.swept_volume(motion, "arms")
     with pytest.raises(ValueError, match="'base' has no solid to sweep"):
         jk.swept_volume(motion, "base")
-    with pytest.raises(ValueError, match="turns by 2 rad between the closed poses 0 and 1"):
+    with pytest.raises(ValueError, match="turns by 2 rad between the poses 0 and 1"):
         jk.swept_volume(motion, "arm", resolution=8.0)
     with pytest.raises(ValueError, match=r"points 0.01 apart, and 6e\+07 are the most: write resolution="):
         jk.swept_volume(motion, "arm", resolution=0.01)
