@@ -17,21 +17,11 @@ from jaxkin._arguments import check_motion
 from jaxkin._files import save_figure
 from jaxkin._names import listed, nearest
 from jaxkin._traced import traced
-from jaxkin.effects.cusps_crossings import (
-    MEETS,
-    ONE_INPUT,
-    Crossing,
-    Curve,
-    Cusp,
-    Evaluate,
-    Place,
-    crossings_of,
-    cusps_of,
-)
+from jaxkin.effects.curve_range import Curve, CurveRange, Evaluate, range_of
+from jaxkin.effects.cusps_crossings import Crossing, Cusp, Place, crossings_of, cusps_of
 from jaxkin.effects.pose_plot import save_rows
 from jaxkin.effects.rates import accelerations, velocities
 from jaxkin.geometry.movements import is_length
-from jaxkin.geometry.trig import TURN
 from jaxkin.mechanism.motion import Motion, as_point
 
 FLAT = 1e-9
@@ -102,8 +92,9 @@ def coupler_curve(motion: Motion, part: str, point: Sequence[float | int] | np.n
 
     `point` is given where it is in the assembled pose. The motion tells cusps and crossings apart by its steps: two
     crossings within one step are missed, and so is a loop smaller than a step. Branches that lie on each other, as
-    where a curve is drawn twice, do not cross; of a motion that repeats itself after a full turn of its drive, cusps
-    and crossings are those of its first turn. Poses between those of the motion are swept with its options.
+    where a curve is drawn twice, do not cross, nor do the two sides of a cusp. Of a curve that repeats itself after
+    full turns of the drive, cusps and crossings are those of the first time, and its ends are one pose. Poses between
+    those of the motion are swept with its options.
 
     Raises ValueError for motions with several drives, with fewer than four closed poses, for a part that is not there,
     and inside `jit`, `vmap` and `grad`.
@@ -127,10 +118,12 @@ def coupler_curve(motion: Motion, part: str, point: Sequence[float | int] | np.n
     # a motion may pass inputs several times, and rest at them; the curve is a function of the input
     own, first = np.unique(inputs[closed], return_index=True)
     passed = points[closed][first]
-    if not is_length(drive.rpartition(".")[2]) and _repeats(evaluate, own, passed, extent):
-        own, passed = (each[own <= own[0] + TURN + ONE_INPUT] for each in (own, passed))
-    cusps = cusps_of(evaluate, own)
-    crossings = crossings_of(evaluate, axes, own, passed, extent, cusps) if flat and extent > 0 else ()
+    if is_length(drive.rpartition(".")[2]):
+        curve = CurveRange(own, passed, False)
+    else:
+        curve = range_of(evaluate, own, passed, extent)
+    cusps = cusps_of(evaluate, curve)
+    crossings = crossings_of(evaluate, axes, curve, extent, cusps) if flat and extent > 0 else ()
     return CouplerCurve(part, drive, inputs, points, cusps, crossings, axes if flat else None)
 
 
@@ -147,15 +140,6 @@ def _evaluation(motion: Motion, drive: str, part: str, at: Place) -> Evaluate:
         return Curve(point, slope, bend, np.asarray(swept.closed)[: len(inputs)])
 
     return evaluate
-
-
-def _repeats(evaluate: Evaluate, inputs: np.ndarray, points: np.ndarray, extent: float) -> bool:
-    """Tell whether a curve is longer than a full turn of its input, and passes the same points again then."""
-    again = inputs > inputs[0] + TURN
-    if not again.any():
-        return False
-    before = evaluate(inputs[again] - TURN)
-    return bool(np.all(before.closed & (np.linalg.norm(points[again] - before.point, axis=1) <= MEETS * extent)))
 
 
 def _axes(points: Float[np.ndarray, "poses 3"]) -> tuple[Float[np.ndarray, "2 3"], bool]:

@@ -9,6 +9,8 @@ import pytest
 from scipy.optimize import fsolve
 
 import jaxkin as jk
+from jaxkin.effects.curve_range import Curve, range_of
+from jaxkin.effects.cusps_crossings import crossings_of, cusps_of
 from reference.mechanisms import planar_fourbar
 from reference.planar import fourbar
 
@@ -28,23 +30,97 @@ def motion():
     return planar_fourbar(START).sweep({"A": TURN})
 
 
-@pytest.mark.long
-def test_a_point_at_the_pole_of_the_coupler_has_a_cusp(motion):
-    """Crank and rocker, prolonged, meet in the pole: the point of the coupler there stands still."""
-    theta = START + 1.2345
-    at = fourbar(np.array([theta]))
+def at_the_pole(turned):
+    """The point of the coupler, as assembled, that is at its pole after a turn, where crank and rocker meet; and it."""
+    at = fourbar(np.array([START + turned]))
     crank, rocker = at.crank_pin[0], at.rocker_pin[0] - [100.0, 0.0]
     s, _ = np.linalg.solve(np.stack([crank, -rocker], axis=1), [100.0, 0.0])
     pole = s * crank - at.crank_pin[0]
-    turned = float(at.coupler[0])
-    along, across = pole @ [np.cos(turned), np.sin(turned)], pole @ [-np.sin(turned), np.cos(turned)]
-    point = (*coupler_point(START, along, across)[0], 7.0)
+    angle = float(at.coupler[0])
+    along, across = pole @ [np.cos(angle), np.sin(angle)], pole @ [-np.sin(angle), np.cos(angle)]
+    return (*coupler_point(START, along, across)[0], 7.0), (*(s * crank), 7.0)
+
+
+@pytest.mark.long
+def test_a_point_at_the_pole_of_the_coupler_has_a_cusp(motion):
+    """Crank and rocker, prolonged, meet in the pole: the point of the coupler there stands still."""
+    point, pole = at_the_pole(1.2345)
     found = jk.coupler_curve(motion, "coupler", point)
     (cusp,) = found.cusps
     assert abs(cusp.input - 1.2345) < 1e-10
-    np.testing.assert_allclose(cusp.point, (*(s * crank), 7.0), atol=1e-9)
+    np.testing.assert_allclose(cusp.point, pole, atol=1e-9)
     near = jk.coupler_curve(motion, "coupler", np.add(point, (0.01, 0.0, 0.0)))
     assert near.cusps == ()
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("turned", "start", "poses"),
+    [
+        (0.0, 0.0, 181),
+        (0.0, -np.pi, 181),  # in the middle
+        (0.3, 0.3, 13),
+        (0.5, 0.0, 13),  # within a step of 0.52 of the ends
+        (5.9, 0.0, 13),
+    ],
+)
+def test_a_cusp_at_the_ends_of_a_full_turn_is_one(motion, turned, start, poses):
+    point, pole = at_the_pole(turned)
+    turn = motion.mechanism.sweep({"A": start + np.linspace(0.0, 2 * np.pi, poses)})
+    found = jk.coupler_curve(turn, "coupler", point)
+    (cusp,) = found.cusps
+    assert abs(cusp.input - turned) < 1e-10
+    np.testing.assert_allclose(cusp.point, pole, atol=1e-9)
+    if poses == 181:  # far more steps than crossings: they are those of any other turn
+        again = jk.coupler_curve(motion.mechanism.sweep({"A": 2.0 + TURN}), "coupler", point)
+        assert len(found.crossings) == len(again.crossings)
+        assert all(abs(each.inputs[0] - each.inputs[1]) > 0.1 for each in found.crossings)
+
+
+@pytest.mark.long
+def test_cusps_are_within_the_range(motion):
+    """One beside the range, by less than a step, is none of it; one at its end is."""
+    point, _ = at_the_pole(1.2345)
+    beside = motion.mechanism.sweep({"A": np.linspace(1.3, 3.0, 18)})
+    assert jk.coupler_curve(beside, "coupler", point).cusps == ()
+    ends = motion.mechanism.sweep({"A": np.linspace(1.2345, 3.0, 18)})
+    assert len(jk.coupler_curve(ends, "coupler", point).cusps) == 1
+
+
+@pytest.mark.long
+def test_a_crossing_at_the_ends_of_a_full_turn_is_one(motion):
+    point = (*coupler_point(START, 50.0, -60.0)[0], 0.0)
+    (first, *_) = jk.coupler_curve(motion, "coupler", point).crossings
+    for start in first.inputs:
+        turn = motion.mechanism.sweep({"A": start + TURN})
+        found = jk.coupler_curve(turn, "coupler", point).crossings
+        apart = abs(first.inputs[0] - first.inputs[1])
+        other = apart if start == first.inputs[0] else 2 * np.pi - apart
+        (one,) = [each for each in found if abs(each.inputs[0] - start) < 1e-9]
+        np.testing.assert_allclose(one.inputs, (start, start + other), atol=1e-9)
+        np.testing.assert_allclose(one.angle, first.angle, atol=1e-9)
+
+
+def test_a_curve_may_begin_anew_after_two_turns():
+    """The limacon r = 1 + 2 cos(u / 2) about the angle u / 2: its loop crosses at r = 0, by 60 degrees."""
+
+    def limacon(u):
+        e = np.exp(0.5j * u)
+        points = e + 1 + e**2  # (1 + 2 cos) e
+        slopes = 0.5j * e + 1j * e**2
+        bends = -0.25 * e - e**2
+        point, slope, bend = (np.stack([each.real, each.imag, 0 * u], axis=-1) for each in (points, slopes, bends))
+        return Curve(point, slope, bend, np.ones(len(u), bool))
+
+    inputs = np.linspace(0.0, 6 * np.pi, 100)  # steps that no turn ends at
+    curve = range_of(limacon, inputs, limacon(inputs).point, 3.0)
+    assert curve.repeats
+    np.testing.assert_allclose(curve.inputs[[0, -1]], [0.0, 4 * np.pi], atol=1e-14)
+    (crossing,) = crossings_of(limacon, np.eye(3)[:2], curve, 3.0, cusps_of(limacon, curve))
+    np.testing.assert_allclose(crossing.inputs, (4 * np.pi / 3, 8 * np.pi / 3), atol=1e-12)
+    np.testing.assert_allclose(crossing.angle, np.pi / 3, atol=1e-12)
+    once = range_of(limacon, inputs[:34], limacon(inputs[:34]).point, 3.0)  # one turn, which is half of it
+    assert not once.repeats and len(once.inputs) == 34
 
 
 @pytest.mark.long
