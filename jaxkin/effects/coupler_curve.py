@@ -27,6 +27,10 @@ from jaxkin.mechanism.motion import Motion, as_point
 FLAT = 1e-9
 """Extent of a curve across its plane, over that along it, up to which it counts as plane."""
 
+RESTS = 1e-10
+"""Extent of a curve, over the largest coordinate of its points and the joints, up to which the point rests: a million
+times the rounding of a pose, and no curve whose cusps or crossings could be told from it."""
+
 
 @dataclass(frozen=True, eq=False)
 class CouplerCurve:
@@ -43,11 +47,16 @@ class CouplerCurve:
     """Empty for curves that are not plane: these do not cross themselves but by chance."""
     plane: Float[np.ndarray, "2 3"] | None
     """Axes of the plane of the curve; None where it has none."""
+    rests: bool = False
+    """Whether the point does not move, as that at the fixed pivot of a crank: it has no plane, cusps and crossings."""
 
     def __str__(self) -> str:
         """Describe the curve in a line, and each cusp and crossing in one."""
+        about = f"Curve of a point of {self.part} over {self.drive}, {len(self.inputs)} poses"
+        if self.rests:
+            return f"{about}: the point rests at {_place(np.nanmean(self.points, axis=0))}"
         shape = "plane" if self.plane is not None else "not plane, so that crossings were not looked for"
-        lines = [f"Curve of a point of {self.part} over {self.drive}, {len(self.inputs)} poses, {shape}"]
+        lines = [f"{about}, {shape}"]
         for cusp in self.cusps:
             lines.append(f"  cusp at {cusp.input:.9g}: {_place(cusp.point)}")
         for crossing in self.crossings:
@@ -113,8 +122,10 @@ def coupler_curve(motion: Motion, part: str, point: Sequence[float | int] | np.n
         raise ValueError(f"a curve needs four closed poses, and this motion has {closed.sum()} of {len(closed)}")
     points = np.where(closed[:, None], np.asarray(motion.points(part, at), float), np.nan)
     evaluate = _evaluation(motion, drive, part, at)
+    extent = float(np.ptp(points[closed], axis=0).max())
+    if extent <= RESTS * _largest_coordinate(motion, points[closed]):
+        return CouplerCurve(part, drive, inputs, points, (), (), None, rests=True)
     axes, flat = _axes(points)
-    extent = float(np.nanmax(np.ptp(points[closed], axis=0)))
     # a motion may pass inputs several times, and rest at them; the curve is a function of the input
     own, first = np.unique(inputs[closed], return_index=True)
     passed = points[closed][first]
@@ -123,7 +134,7 @@ def coupler_curve(motion: Motion, part: str, point: Sequence[float | int] | np.n
     else:
         curve = range_of(evaluate, own, passed, extent)
     cusps = cusps_of(evaluate, curve)
-    crossings = crossings_of(evaluate, axes, curve, extent, cusps) if flat and extent > 0 else ()
+    crossings = crossings_of(evaluate, axes, curve, extent, cusps) if flat else ()
     return CouplerCurve(part, drive, inputs, points, cusps, crossings, axes if flat else None)
 
 
@@ -140,6 +151,12 @@ def _evaluation(motion: Motion, drive: str, part: str, at: Place) -> Evaluate:
         return Curve(point, slope, bend, np.asarray(swept.closed)[: len(inputs)])
 
     return evaluate
+
+
+def _largest_coordinate(motion: Motion, points: Float[np.ndarray, "poses 3"]) -> float:
+    """Find the largest coordinate, without sign, of points and of the joints as assembled: poses are rounded to it."""
+    joints = [np.asarray(joint.frames_1, float)[:, :3, 3] for joint in motion.mechanism.all_joints]
+    return float(np.abs(np.concatenate([points, *joints])).max())
 
 
 def _axes(points: Float[np.ndarray, "poses 3"]) -> tuple[Float[np.ndarray, "2 3"], bool]:

@@ -160,6 +160,17 @@ def test_a_circle_has_neither(motion):
     assert "no cusp, no crossing" in str(found)
 
 
+def test_a_point_at_rest_has_neither_and_says_so(motion, tmp_path):
+    """The pivot of the crank, and a point of the ground; that beside the pivot, by a millionth of the crank, draws."""
+    for part, point in (("crank", (0.0, 0.0, 0.0)), ("ground", (3.0, 4.0, 5.0))):
+        found = jk.coupler_curve(motion, part, point)
+        assert found.rests and found.plane is None and found.cusps == found.crossings == ()
+        assert str(found).startswith(f"Curve of a point of {part} over A.phi, 181 poses: the point rests at (")
+        assert found.plot(tmp_path / "rest.png").stat().st_size > 1000
+    beside = jk.coupler_curve(motion, "crank", (4e-5, 0.0, 0.0))
+    assert not beside.rests and beside.plane is not None and beside.cusps == beside.crossings == ()
+
+
 @pytest.mark.long
 def test_a_curve_that_is_drawn_twice_has_what_one_turn_has(motion):
     """Also at its cusp, beside which the steps of both turns cut each other."""
