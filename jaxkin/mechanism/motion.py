@@ -14,6 +14,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
+from jaxkin._arguments import numbers
 from jaxkin._named import Named
 from jaxkin._names import listed, nearest
 from jaxkin._traced import traced
@@ -186,14 +187,14 @@ class Motion:
 
 
 def as_point(point: Sequence[float | int] | np.ndarray | Array) -> Float[Array, "3"]:
-    """Convert three numbers, in the unit of the mechanism, to an array; ValueError where they are none."""
-    try:
-        found = jnp.asarray(point, float)
-    except (TypeError, ValueError):
-        raise ValueError(f"a point must be three numbers (x, y, z), got {point!r}") from None
+    """Convert three finite numbers, in the unit of the mechanism, to an array; ValueError where they are none."""
+    expected = "three finite numbers (x, y, z)"
+    found = numbers(point, "a point", expected)
     if found.shape != (3,):
-        raise ValueError(f"a point must be three numbers (x, y, z), got shape {found.shape}")
-    return found
+        raise ValueError(f"a point must be {expected}, got shape {found.shape}")
+    if not traced(found) and not np.isfinite(found).all():
+        raise ValueError(f"a point must be {expected}, got {point!r}")
+    return jnp.asarray(found)
 
 
 def largest_residuals(motion: Motion) -> Float[np.ndarray, " status"]:

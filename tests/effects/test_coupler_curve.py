@@ -198,8 +198,10 @@ def test_it_prints_draws_and_saves(motion, tmp_path):
 def test_what_makes_no_sense_is_refused(motion):
     with pytest.raises(ValueError, match="no part 'copler'; did you mean 'coupler'"):
         jk.coupler_curve(motion, "copler", (0, 0, 0))
-    with pytest.raises(ValueError, match="three numbers"):
+    with pytest.raises(ValueError, match="three finite numbers"):
         jk.coupler_curve(motion, "coupler", (0, 0))
+    with pytest.raises(ValueError, match=r"three finite numbers \(x, y, z\), got \(1, 2, nan\)"):
+        jk.coupler_curve(motion, "coupler", (1, 2, np.nan))
     with pytest.raises(ValueError, match="of a motion"):
         jk.coupler_curve(motion.mechanism, "coupler", (0, 0, 0))
     with pytest.raises(ValueError, match="four closed poses"):

@@ -159,8 +159,10 @@ def test_what_is_no_map_is_refused():
             jk.workspace(mechanism, ranges, "left", (0, 0, 0))
     with pytest.raises(ValueError, match="there is no part 'lef'; did you mean 'left'"):
         jk.workspace(mechanism, {"A": grid, "E": grid}, "lef", (0, 0, 0))
-    with pytest.raises(ValueError, match="a point must be three numbers"):
+    with pytest.raises(ValueError, match="a point must be three finite numbers"):
         jk.workspace(mechanism, {"A": grid, "E": grid}, "left", (0, 0))
+    with pytest.raises(ValueError, match=r"a point must be three finite numbers \(x, y, z\), got \(40, nan, 0\)"):
+        jk.workspace(mechanism, {"A": grid, "E": grid}, "left", (40, np.nan, 0))
     with pytest.raises(ValueError, match=r"1 freedom"):
         jk.workspace(planar_fourbar(), {"A": grid, "B": grid}, "coupler", (0, 0, 0))
     with pytest.raises(ValueError, match=r"leave freedoms: hold .* too, as in hold="):
