@@ -178,11 +178,16 @@ def _nominal(mechanism: Mechanism, stated: Mapping[Any, Tolerance]) -> list[Any]
 
 
 def _displacements(key: Any, value: Any) -> Any:
-    """Return the displacements of a drive as an array; ValueError where they are no numbers."""
+    """Return the displacements of a drive as an array; ValueError where they are no numbers, or there are none."""
+    if traced(value):
+        return value
     try:
-        return value if traced(value) else np.asarray(value, float)
+        found = np.asarray(value, float)
     except (TypeError, ValueError):
         raise ValueError(f"drive {key!r}: the displacements must be real numbers, got {value!r}") from None
+    if not found.size:
+        raise ValueError(f"drive {key!r} has no poses: nothing can be measured there, got {value!r}")
+    return found
 
 
 def _is_one_pose(drive: Mapping[Any, Any]) -> bool:

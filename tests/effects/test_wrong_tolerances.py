@@ -31,6 +31,7 @@ def rocker(pose):
         ({COUPLER: 0.1}, {"clearances": {"E": 0.1}}, "clearances: there is no joint 'E'"),
         ({COUPLER: 0.1}, {"wanted": (1, 0)}, "two numbers in rising order"),
         ({COUPLER: 0.1}, {"drive": {"A": 3.0}}, "does not close for this drive"),
+        ({COUPLER: 0.1}, {"drive": {"A": []}}, r"drive 'A' has no poses: .* got \[\]"),
         ({COUPLER: 0.1}, {"measure": lambda pose: pose.coordinates["D"]}, r"one number, .* an array of shape \(1,\)"),
         ({COUPLER: 0.1}, {"measure": "D"}, "must be a function of the pose"),
         ({COUPLER: 0.1}, {"measure": lambda pose: np.max(np.asarray(pose.coordinates["D"]))}, "jax.numpy in place of"),
