@@ -6,9 +6,15 @@ from dataclasses import dataclass
 
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Float
 
 from jaxkin.effects.rates import Rates
+from jaxkin.geometry.movements import is_length
+
+ROUNDING = 100.0
+"""Angular speed of a part, over the largest one of a joint and the precision of numbers, up to which the part does not
+turn: a few joints' rates that cancel leave some units of rounding, and axes from these are anywhere."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,9 +29,33 @@ class ScrewAxes:
     """The same point, where it is on the part in the assembled pose: in the plane the moving centrode."""
     pitch: Float[Array, " poses"]
     """Advance along the axis per radian, in the unit of the mechanism; the `pitch` of `jk.screw` is per turn."""
+    angular_speed: Float[Array, " poses"]
+    """Radians per time; zero where the part only slides or rests, NaN at poses that have no rates (`Rates.closed`)."""
+    part: str
+    unit: str
+    """Unit of lengths of the mechanism."""
+
+    def __str__(self) -> str:
+        """Say the least and the greatest angular speed and pitch, and at which poses the part does not turn."""
+        speed = np.asarray(self.angular_speed)
+        lines = [f"Screw axes of {self.part} over {len(speed)} poses, {np.isfinite(speed).sum()} of them closed"]
+        unit = self.unit or "length"
+        for name, of, row in (("angular speed", "rad/time", speed), ("pitch", f"{unit}/rad", np.asarray(self.pitch))):
+            if len(turning := np.flatnonzero(speed > 0)):
+                low, high = turning[row[turning].argmin()], turning[row[turning].argmax()]
+                least, most = f"{row[low]:.4g}", f"{row[high]:.4g}"
+                said = least if least == most else f"from {least} at pose {low} to {most} at pose {high}"
+                lines.append(f"  {name} [{of}]: {said}")
+        if len(still := np.flatnonzero(speed == 0)):
+            lines.append(f"  only slides or rests at {len(still)} poses, first at pose {still[0]}: no axis there")
+        return "\n".join(lines)
 
 
-jax.tree_util.register_dataclass(ScrewAxes, data_fields=["direction", "point", "moving", "pitch"], meta_fields=[])
+jax.tree_util.register_dataclass(
+    ScrewAxes,
+    data_fields=["direction", "point", "moving", "pitch", "angular_speed"],
+    meta_fields=["part", "unit"],
+)
 
 
 def screw_axes(velocities: Rates, part: str) -> ScrewAxes:
@@ -42,7 +72,24 @@ def screw_axes(velocities: Rates, part: str) -> ScrewAxes:
     rotation, shift = place[:, :3, :3], place[:, :3, 3]
     at_origin = rates[:, :3, 3] - jnp.cross(omega, shift)
     square = jnp.sum(omega**2, axis=1, keepdims=True)
-    square = jnp.where(square > 0, square, jnp.nan)
+    turns = square > _rounding(velocities)[:, None] ** 2
+    square = jnp.where(turns, square, jnp.nan)
     point = jnp.cross(omega, at_origin) / square
     moving = jnp.einsum("pji,pj->pi", rotation, point - shift)
-    return ScrewAxes(omega / jnp.sqrt(square), point, moving, jnp.sum(omega * at_origin, axis=1) / square[:, 0])
+    speed = jnp.sqrt(square)
+    pitch = jnp.sum(omega * at_origin, axis=1) / square[:, 0]
+    angular_speed = jnp.where(velocities.closed, jnp.where(turns, speed, 0.0)[:, 0], jnp.nan)
+    return ScrewAxes(omega / speed, point, moving, pitch, angular_speed, part, velocities.motion.mechanism.unit)
+
+
+def _rounding(velocities: Rates) -> Float[Array, " poses"]:
+    """Bound the angular speed that rounding leaves a part that does not turn, by the largest one of a joint."""
+    joints = velocities.motion.mechanism.joints.values()
+    angles = [
+        jnp.abs(rates[:, column])
+        for joint, rates in zip(joints, velocities.displacements, strict=True)
+        for column, coordinate in enumerate(joint.coordinates)
+        if not is_length(coordinate)
+    ]
+    still = jnp.zeros(len(velocities.closed))
+    return ROUNDING * jnp.finfo(still.dtype).eps * jnp.max(jnp.stack([still, *angles]), axis=0)

@@ -215,3 +215,32 @@ def test_the_largest_rates_of_a_short_rise_between_long_dwells(law, share, peaks
 def test_times_are_a_whole_number(poses):
     with pytest.raises(ValueError, match="poses must be a whole number, 0 or more"):
         jk.motion_law([("harmonic", 1.0, 1.0)]).times(poses)
+
+    np.testing.assert_allclose(axes.angular_speed, [3.0, 0.0], rtol=1e-14)
+
+
+def test_screw_axes_print_their_ranges_and_where_there_are_none():
+    nut = jk.Mechanism.build(
+        fixed=["g"], unit="mm", joints=[jk.screw("S", "g", "nut", point=(1, 2, 0), axis=Z, pitch=0.5)]
+    )
+    motion = nut.sweep({"S": np.array([0.0, 2.0, 3.0, np.nan])})
+    axes = jk.screw_axes(jk.velocities(motion, {"S": np.array([3.0, 0.0, -1.0, 1.0])}), "nut")
+    assert str(axes).splitlines() == [
+        "Screw axes of nut over 4 poses, 3 of them closed",
+        "  angular speed [rad/time]: from 1 at pose 2 to 3 at pose 0",
+        "  pitch [mm/rad]: 0.07958",  # 0.5 mm a turn
+        "  only slides or rests at 1 poses, first at pose 1: no axis there",
+    ]
+
+
+def test_the_coupler_of_a_parallelogram_has_no_screw_axis():
+    """It slides on circles: what rounding turns it by is no axis."""
+    places = {"A": (0, 0, 0), "B": (10, 3, 0), "C": (42, 3, 0), "D": (32, 0, 0)}
+    pairs = {"A": ("g", "crank"), "B": ("crank", "coupler"), "C": ("coupler", "rocker"), "D": ("g", "rocker")}
+    joints = [jk.revolute(name, *pairs[name], point=place, axis=Z) for name, place in places.items()]
+    motion = jk.Mechanism.build(fixed=["g"], joints=joints).sweep({"A": np.linspace(0.0, 1.0, 11)}, throw=True)
+    velocities = jk.velocities(motion, {"A": 2.0})
+    axes = jk.screw_axes(velocities, "coupler")
+    assert np.isnan(axes.point).all() and np.all(np.asarray(axes.angular_speed) == 0)
+    assert "only slides or rests at 11 poses" in str(axes)
+    np.testing.assert_allclose(jk.screw_axes(velocities, "rocker").angular_speed, 2.0, rtol=1e-12)
