@@ -12,12 +12,18 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Bool, Float, Int
 
-from jaxkin.contacts.rim import CORNER
+from jaxkin.contacts.rim import CORNER, numbered
 
 EVEN = 2.5
 """Largest ratio of the lengths of neighbouring chords of one arc; an edge that is longer is straight."""
+ALIKE = 1.0 + EVEN
+"""Largest ratio of two successive turns along one arc. A turn is half of the arcs on its two sides: beside an arc a, of
+which the next one is `EVEN` a at most, they are a and a + `EVEN` a, over two, where the arc leaves its tangent."""
+FEW_CHORDS = CORNER / 2
+"""Largest turn, radians, that is taken for that of an arc of one or two chords, of which no second turn is seen: chords
+of tessellated files turn by 0.35 at most, and flats by more, as chamfers of 30 degrees do."""
 STRIDE = 64
 """Every pose with a number divisible by this is searched first, and may decide the poses around it."""
 CHUNK = 20_000
@@ -70,17 +76,22 @@ class Hull:
         return angles, self.corners[: len(edges), 0] * np.cos(angles) + self.corners[: len(edges), 1] * np.sin(angles)
 
 
-def hull(points: Float[np.ndarray, "points 2"]) -> Hull | None:
-    """Compute the convex hull of points; None for three or more points on one line, but for rounding."""
+def hull(points: Float[np.ndarray, "points 2"], of_triangles: bool = False) -> Hull | None:
+    """Compute the convex hull of points; None for three or more points on one line, but for rounding.
+
+    Points of `of_triangles` are corners of triangles, three each: then an edge of the hull that is none of a triangle
+    spans a notch of their rim, and is no chord of it.
+    """
     from scipy.spatial import ConvexHull, QhullError
 
     if len(points) < 3:
         return Hull(points, 0.0)
     try:
-        corners = points[ConvexHull(points).vertices]
+        vertices = ConvexHull(points).vertices
     except QhullError:
         return None
-    return Hull(corners, _chord_height(corners))
+    on_rim = _are_edges(points, vertices) if of_triangles else np.ones(len(vertices), bool)
+    return Hull(points[vertices], _chord_height(points[vertices], on_rim))
 
 
 def gaps_between_hulls(one: Hull, other: Hull, motion: PlaneMotion) -> Float[np.ndarray, " poses"]:
@@ -131,19 +142,39 @@ def _farthest(one: Hull, angles: Float[np.ndarray, "edges poses"]) -> Float[np.n
     return corners[..., 0] * np.cos(angles) + corners[..., 1] * np.sin(angles)
 
 
-def _chord_height(corners: Float[np.ndarray, "corners 2"]) -> float:
+def _are_edges(corners: Float[np.ndarray, "corners 2"], vertices: Int[np.ndarray, " hull"]) -> np.ndarray:
+    """Tell for each edge of a hull, from a vertex to the next one, whether it is one of a triangle: (hull,)."""
+    numbers = numbered(corners)
+    triangles = numbers.reshape(-1, 3)
+    of_triangles = np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=-1).reshape(-1, 2)
+    of_hull = np.stack([numbers[vertices], np.roll(numbers[vertices], -1)], axis=-1)
+    one, other = (np.sort(each, axis=1) @ [numbers.max() + 1, 1] for each in (of_hull, of_triangles))
+    return np.isin(one, other)
+
+
+def _chord_height(corners: Float[np.ndarray, "corners 2"], on_rim: Bool[np.ndarray, " corners"]) -> float:
     """Bound how far a curved rim extends beyond the edges of a hull that are its chords: a length.
 
-    An edge is a chord if the rim turns by less than `CORNER` at one of its ends, and the neighbour there is not much
-    shorter (`EVEN`). An arc of length l that turns by t is l t / 8 high over its chord; l t / 4 is returned, since at
-    the ends of an arc with a single chord only half of its turn is seen.
+    An edge is a chord if the rim turns by less than `CORNER` at one of its ends, the neighbour there is not much
+    shorter (`EVEN`), and the rim turns alike at the next vertex on one side, as an arc does. Where its other end is a
+    corner, it may be all of an arc, if it turns little. An arc of length l that turns by t is l t / 8 high over
+    its chord; l t / 4 is returned, since at the ends of an arc with a single chord only half of its turn is seen.
     """
     edges = np.roll(corners, -1, axis=0) - corners
     length = np.linalg.norm(edges, axis=-1)
     angle = np.arctan2(edges[:, 1], edges[:, 0])
-    turn = (np.roll(angle, -1) - angle + np.pi) % (2 * np.pi) - np.pi  # at the end of each edge
+    turn = np.abs((np.roll(angle, -1) - angle + np.pi) % (2 * np.pi) - np.pi)  # at the end of each edge
+    turn = np.where(on_rim & np.roll(on_rim, -1), turn, np.pi)  # an arc ends where the hull leaves the rim
     height = 0.0
-    for turns, neighbour in ((turn, np.roll(length, -1)), (np.roll(turn, 1), np.roll(length, 1))):
-        chord = (np.abs(turns) < CORNER) & (length < EVEN * neighbour)
-        height = max(height, float(np.max(np.where(chord, length * np.abs(turns) / 4, 0.0), initial=0.0)))
+    for onward in (1, -1):
+        here, other = (turn, np.roll(turn, 1)) if onward == 1 else (np.roll(turn, 1), turn)
+        beyond = np.roll(here, -onward)
+        arc = _alike(here, other) | _alike(here, beyond) | ((other >= CORNER) & (here < FEW_CHORDS))
+        chord = arc & (here < CORNER) & (length < EVEN * np.roll(length, -onward))
+        height = max(height, float(np.max(np.where(chord, length * here / 4, 0.0), initial=0.0)))
     return height
+
+
+def _alike(turn: np.ndarray, next_one: np.ndarray) -> np.ndarray:
+    """Tell where two successive turns may be those of one arc."""
+    return (next_one < CORNER) & (turn <= ALIKE * next_one) & (next_one <= ALIKE * turn)

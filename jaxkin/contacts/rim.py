@@ -17,16 +17,19 @@ CORNER = 0.7
 """Largest angle, radians, between successive chords of one arc; where a rim turns by more, it has a corner."""
 
 
+def numbered(corners: Points) -> np.ndarray:
+    """Number the corners of triangles (corners,): those at one place have one number."""
+    scale = 1e-7 * float(np.ptp(corners, axis=0).max()) or 1.0  # corners are kept in single precision by most readers
+    return np.unique(np.round((corners - corners[0]) / scale), axis=0, return_inverse=True)[1].ravel()
+
+
 def chord_height(triangles: Solid, between: Difference) -> float:
     """Estimate by how much the chords along the rim of a face may cut into it: the largest height of an arc, a length.
 
     An arc of length l that turns by t radians is l t / 8 high over its chord; l is the length of an edge of the rim,
     t the angle between this edge and the next one.
     """
-    corners = triangles.reshape(-1, 3)
-    scale = 1e-7 * float(np.ptp(corners, axis=0).max()) or 1.0  # corners are kept in single precision by most readers
-    _, index = np.unique(np.round((corners - corners[0]) / scale), axis=0, return_inverse=True)
-    loops = index.reshape(-1, 3)
+    loops = numbered(triangles.reshape(-1, 3)).reshape(-1, 3)
     edges = np.stack([loops, np.roll(loops, -1, axis=1)], axis=-1).reshape(-1, 2)
     ends = np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=-2).reshape(-1, 2, 3)
     _, position, count = np.unique(np.sort(edges, axis=1), axis=0, return_index=True, return_counts=True)

@@ -72,7 +72,7 @@ def on_plane(face1: Face, face2: Face, displacements: Displacements) -> Gaps:
     plane = cast(Plane, face1.surface)
     x = perpendicular(plane.normal)
     axes = np.stack([x, np.cross(plane.normal, x)])
-    one = hull(outline(face1, plane.point, *axes))
+    one = hull(outline(face1, plane.point, *axes), of_triangles=True)
     origin, along, other = _lying(face2, plane.normal)
     if one is None or other is None:
         return np.full(displacements.shape[2], -np.inf)
@@ -89,7 +89,7 @@ def _lying(face: Face, normal: Vector) -> tuple[Vector, Vector, Hull | None]:
     match face.surface:
         case Plane(point=point, normal=direction):
             x = perpendicular(direction)
-            return point, x, hull(outline(face, point, x, np.cross(normal, x)))
+            return point, x, hull(outline(face, point, x, np.cross(normal, x)), of_triangles=True)
         case Sphere(centre=centre):
             return centre, perpendicular(normal), hull(np.zeros((1, 2)))
         case _:

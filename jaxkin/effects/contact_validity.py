@@ -116,8 +116,8 @@ def contact_validity(motion: Motion) -> ContactValidity:
     """Check at each closed pose of a motion whether the faces of each contact still touch within their extents.
 
     A contact holds where the region in which its surfaces touch lies on both faces, or on faces of the same bodies that
-    continue them. The gap of a lost one is the distance along the surface from the extents of the faces, or, where a
-    face with a hole or a notch is left within its extent, that of its triangles. All sixteen contact states are
+    continue them. The gap of a lost one is the distance along the surface from the extents of the faces, or, of faces
+    with holes or notches, that of their triangles where it is larger. All sixteen contact states are
     checked. Faces end where their triangles do, so that a curved rim is exact to the height of a chord.
 
     Contacts are those that the joints of a mechanism were read from: raises ValueError where it has none, and inside
@@ -159,10 +159,13 @@ def _gaps(joint: Joint, contact: Contact, moved: Displacements, setting: FaceSet
     faces = setting.continued(contact)
     if relative is None or (np.all(np.isfinite(cheap)) and all(map(is_whole, faces[0]))):
         return gaps  # the faces cannot part, or their extents say all
-    for pose in np.flatnonzero(gaps == 0):
+    for pose in range(len(gaps)):
         displacement = np.vstack([relative[:, :, pose], [0.0, 0.0, 0.0, 1.0]])
-        if not any(share_region(contact.contact_state, *pair, displacement, setting.length) for pair in faces):
-            gaps[pose] = _apart(faces, displacement, setting.length)
+        # where extents are apart the faces are, by as much at least
+        if gaps[pose] > 0 or not any(
+            share_region(contact.contact_state, *pair, displacement, setting.length) for pair in faces
+        ):
+            gaps[pose] = max(gaps[pose], _apart(faces, displacement, setting.length))
     return gaps
 
 

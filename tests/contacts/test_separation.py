@@ -105,5 +105,48 @@ def test_a_round_outline_in_chords_is_not_called_off_too_early(turn):
     assert np.all(gaps[x > 1.06] > 0)
 
 
+def fan(ring):
+    """The corners of triangles over a convex ring of points."""
+    ring = np.asarray(ring, float)
+    return np.concatenate([ring[[0, k, k + 1]] for k in range(1, len(ring) - 1)])
+
+
+def arc(start, end, chords):
+    angles = np.linspace(start, end, chords + 1)
+    return np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+
+
+@pytest.mark.parametrize(
+    "corners",
+    [
+        # flats of 30 degrees: a chamfer, a gable
+        fan([(0, 0), (20, 0), (20, 10), (5, 10), (0, 10 - 5 * np.tan(np.pi / 6))]),
+        fan([(0, 0), (20, 0), (20, 10), (10, 10 + 10 * np.tan(np.pi / 6)), (0, 10)]),
+        # a T, beside whose leg the hull leaves the rim by 18 degrees
+        np.concatenate([fan([(0, 0), (9, 0), (9, 1), (0, 1)]), fan([(3, -1), (6, -1), (6, 0), (3, 0)])]),
+    ],
+)
+def test_straight_edges_are_no_chords(corners):
+    assert hull(corners, of_triangles=True).slack == 0.0
+
+
+@pytest.mark.parametrize("turn", [0.05, 0.3])
+@pytest.mark.parametrize(
+    "ring",
+    [
+        lambda turn: arc(0, 2 * np.pi - turn, round(2 * np.pi / turn) - 1),  # a disc
+        lambda turn: arc(0, np.pi, round(np.pi / turn)),  # a half disc
+        lambda turn: arc(-turn, turn, 2),  # a segment of two chords
+        lambda turn: [(-9, -9), (1, -9), *arc(0, np.pi / 2, round(np.pi / 2 / turn)), (-9, 1)],  # a fillet
+        # one chord between tangents
+        lambda turn: [(1, -9), *arc(0, turn, 1), (np.cos(turn) - 9 * np.sin(turn), np.sin(turn) + 9 * np.cos(turn))],
+    ],
+)
+def test_chords_of_an_arc_are(ring, turn):
+    """An arc of radius 1 is 1 - cos(turn / 2) high over its chords, of about this turn."""
+    corners = fan(ring(turn))
+    assert hull(corners, of_triangles=True).slack > 0.9 * (1 - np.cos(turn / 2))
+
+
 def test_points_on_a_line_have_no_hull():
     assert hull(np.array([[0.0, 0], [1, 0], [2, 0], [3, 0]])) is None

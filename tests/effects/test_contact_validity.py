@@ -20,7 +20,12 @@ def prism(rings, low, high):
     triangulation = Triangulation(*points.T)
     middles = points[triangulation.triangles].mean(axis=1)
     inside = contains(rings[0], middles) & ~np.any([contains(ring, middles) for ring in rings[1:]], axis=0)
-    flat = triangulation.triangles[inside]
+    return extruded(rings, triangulation.triangles[inside], low, high)
+
+
+def extruded(rings, flat, low, high):
+    """A prism over triangles `flat` of the points of rings, the outer one anticlockwise."""
+    points = np.concatenate(rings)
     n = len(points)
     corners = np.concatenate([np.column_stack([points, np.full(n, z)]) for z in (low, high)])
     faces = [*(flat + n), *flat[:, ::-1]]
@@ -73,6 +78,46 @@ def test_a_shoe_over_a_window_has_lost_the_table_that_the_warning_takes_it_to_be
     assert found.first == (30, floor)
     assert "first at pose 30" in str(found) and "table" in str(found)
     assert not found.holds and not found.lost[1 - floor].any()
+
+
+def tee(width, bar, leg, depth):
+    """A table like a T: a bar, `width` long over the heights of `bar`, with a leg below it, `depth` long."""
+    (low, high), (left, right) = bar, leg
+    ring = [(0, low), (left, low), (left, low - depth), (right, low - depth), (right, low), (width, low)]
+    ring += [(width, high), (0, high)]
+    flat = [(7, 0, 1), (7, 1, 6), (1, 4, 6), (4, 5, 6), (1, 2, 3), (1, 3, 4)]
+    return extruded([np.array(ring, float)], np.array(flat), -5, 0)
+
+
+def test_the_gap_at_the_end_of_a_table_with_a_leg_is_the_way_from_there(tmp_path):
+    """The straight edges of its hull, from the bar to the leg, are no chords of a curved rim."""
+    parts = {"table": tee(100, (-6, 9), (40, 70), 15), "fence": box([0, 5, 0], [100, 8, 10])}
+    mechanism = loaded(tmp_path, {**parts, "shoe": box([10, -5, 0], [20, 5, 6])}).mechanism(fixed=["table", "fence"])
+    (name,) = mechanism.joints
+    shift = np.arange(85.5, 110.0, 1.0)
+    motion = mechanism.sweep({name: mechanism.joints[name].frames_1[0, 0, 2] * shift})
+    # its rear edge is at 10 + shift; whole numbers, which STL holds exactly: rounding of coordinates up to 130
+    expected = np.maximum(10 + shift - 100, 0)
+    found, lost = jk.contact_validity(motion), motion.lost_contacts
+    assert len(found.contacts) == len(lost) == 2
+    for gaps in (*found.gaps, *(each.gaps for each in lost)):
+        np.testing.assert_allclose(gaps, expected, atol=1e-12)
+
+
+def test_the_gap_in_a_recess_is_that_of_the_triangles(tmp_path):
+    """A shoe beside the leg of the table, from within the hull of both to beyond it: what extents say is less."""
+    parts = {"table": tee(110, (0, 20), (40, 70), 60), "fence": box([90, -100, 0], [95, 20, 10])}
+    mechanism = loaded(tmp_path, {**parts, "shoe": box([80, 5, 0], [90, 15, 6])}).mechanism(fixed=["table", "fence"])
+    (name,) = mechanism.joints
+    shift = np.arange(0.5, 100.0, 1.0)
+    motion = mechanism.sweep({name: -mechanism.joints[name].frames_1[0, 1, 2] * shift})
+    found = jk.contact_validity(motion)
+    (floor,) = [k for k, each in enumerate(found.contacts) if "table" in each.parts]
+    # its upper edge is at 15 - shift, the bar ends at 0 and the leg, 10 beside it, at -60
+    expected = np.minimum(np.maximum(shift - 15, 0), np.hypot(10, np.maximum(shift - 75, 0)))
+    np.testing.assert_allclose(found.gaps[floor], expected, atol=1e-12)
+    (warned,) = [each for each in motion.lost_contacts if "table" in each.contact.parts]
+    assert np.all(warned.gaps <= expected + 1e-12) and warned.gaps.max() > 1.0  # a bound
 
 
 def test_what_the_warning_tells_is_told_the_same(tmp_path):
