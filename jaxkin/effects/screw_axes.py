@@ -47,7 +47,8 @@ class ScrewAxes:
                 said = least if least == most else f"from {least} at pose {low} to {most} at pose {high}"
                 lines.append(f"  {name} [{of}]: {said}")
         if len(still := np.flatnonzero(speed == 0)):
-            lines.append(f"  only slides or rests at {len(still)} poses, first at pose {still[0]}: no axis there")
+            count = f"{len(still)} of {len(speed)} poses"
+            lines.append(f"  only slides or rests in {count}, first at pose {still[0]}: no axis there")
         return "\n".join(lines)
 
 
