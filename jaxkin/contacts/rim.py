@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
+from jaxtyping import Float, Int
 
 from jaxkin.contacts.overlap import Solid
 from jaxkin.geometry.pose import Points
@@ -17,8 +18,8 @@ CORNER = 0.7
 """Largest angle, radians, between successive chords of one arc; where a rim turns by more, it has a corner."""
 
 
-def numbered(corners: Points) -> np.ndarray:
-    """Number the corners of triangles (corners,): those at one place have one number."""
+def numbered(corners: Float[np.ndarray, "corners axes"]) -> Int[np.ndarray, " corners"]:
+    """Number the corners of triangles, in space or in a plane: those at one place have one number."""
     scale = 1e-7 * float(np.ptp(corners, axis=0).max()) or 1.0  # corners are kept in single precision by most readers
     return np.unique(np.round((corners - corners[0]) / scale), axis=0, return_inverse=True)[1].ravel()
 
