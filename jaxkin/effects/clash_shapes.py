@@ -9,9 +9,11 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from jaxkin.contacts.whole_face import is_whole
+from jaxkin.effects.sample_points import SurfacePoints, core_points, surface_points
 from jaxkin.geometry.displaced import Displaced
 from jaxkin.geometry.part import Face, Part
 from jaxkin.geometry.surfaces import Cone, Plane, Sphere
+from jaxkin.geometry.triangle_distance import Points
 from jaxkin.geometry.triangle_tree import TriangleTree, aligned_axes, triangle_tree
 
 _SAME_PLACE = 1e-7
@@ -46,31 +48,14 @@ class Shape:
         return points, index.reshape(-1, 3)
 
     @cached_property
-    def middle(self) -> Float[np.ndarray, "3"]:
-        """A point inside of the solid, in the axes: half-way through it, below its largest triangle."""
-        triangles = self.tree.triangles
-        normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-        areas = np.linalg.norm(normals, axis=-1)
-        largest = int(np.argmax(areas))
-        inwards = -normals[largest] / areas[largest]
-        start = triangles[largest].mean(axis=0)
-        through = _ray(triangles, start, inwards)
-        through = through[through > _SAME_PLACE * float((self.tree.high[0] - self.tree.low[0]).max())]
-        return start + inwards * (float(through.min(initial=np.inf)) / 2 if len(through) else 0.0)
+    def surface_points(self) -> SurfacePoints:
+        """Points of each face, in the axes."""
+        return surface_points(self.tree.triangles, self.labels)
 
-
-def _ray(triangles: np.ndarray, start: np.ndarray, direction: np.ndarray) -> Float[np.ndarray, " _"]:
-    """Find where a ray goes through triangles: lengths along its unit direction."""
-    edge1, edge2 = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
-    across = np.cross(direction, edge2)
-    determinant = np.sum(edge1 * across, axis=-1)
-    off = start - triangles[:, 0]
-    with np.errstate(divide="ignore", invalid="ignore"):  # rays along a triangle go through it nowhere
-        u = np.sum(off * across, axis=-1) / determinant
-        turned = np.cross(off, edge1)
-        v = (turned @ direction) / determinant
-        place = np.sum(edge2 * turned, axis=-1) / determinant
-    return np.compress((u >= 0) & (v >= 0) & (u <= 1 - v) & np.isfinite(place), place)
+    @cached_property
+    def core_points(self) -> Points:
+        """Points inside of the solid, in the axes."""
+        return core_points(self.tree.triangles, self.labels)
 
 
 def axis_points(face: Face) -> Float[np.ndarray, "_ 3"] | None:

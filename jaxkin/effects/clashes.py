@@ -17,6 +17,7 @@ from jaxkin.effects.clash_shapes import Shape, boxes_along, displaced, near_pair
 from jaxkin.effects.invariant_faces import SAME_PLACE, invariant
 from jaxkin.effects.penetration import depths
 from jaxkin.effects.pose_plot import draw_lines, save_rows
+from jaxkin.effects.sampled_depths import sampled_depths
 from jaxkin.geometry.displaced import Displaced
 from jaxkin.geometry.part import size
 from jaxkin.geometry.tree_crossings import Slack, crossings
@@ -32,6 +33,10 @@ WITHIN = 0.02
 and costs nothing."""
 MAX_LINES = 12
 """Pairs that a printed result names at most: more do not fit on a screen."""
+_SAME_LENGTH = 1e-6
+"""Share of a length by which another one may differ and be told as the same: lengths are printed with four digits."""
+_NO_LENGTH = 1e-9
+"""Share of `within` below which lengths are told as the same: poses are closed up to a residual."""
 _AT_REST = 1e-12
 """Change of a displacement, over the size, below which two parts are at rest relative to each other: rounding."""
 
@@ -48,6 +53,8 @@ class Clashes:
     """Least distance of the two parts, in the unit of the mechanism; less than 0 where they cut each other: then it is
     the depth, with a minus. Infinite where it is more than `within`, 0 where joined parts do not clash, NaN at poses
     that are not closed (`motion.closed`)."""
+    closed: Bool[np.ndarray, " poses"]
+    """Which poses are closed: of the others nothing is known."""
     within: float
     """Up to which clearance it was measured."""
     unit: str
@@ -74,15 +81,20 @@ class Clashes:
 
     @property
     def least(self) -> Float[np.ndarray, " poses"]:
-        """The least clearance of each pose among the pairs that are not joined, and those that clash."""
+        """The least clearance of each pose among the pairs that are not joined, and those that clash; NaN at poses that
+        are not closed."""
         free = np.where(self.joined[:, None] & (self.clearances >= 0), np.inf, self.clearances)
-        return np.min(free, axis=0, initial=np.inf)
+        return np.where(self.closed, np.min(free, axis=0, initial=np.inf), np.nan)
 
     def __str__(self) -> str:
-        poses, unknown = self.clearances.shape[1], int(np.isnan(self.clearances).any(axis=0).sum())
+        poses, known = len(self.closed), int(self.closed.sum())
+        if not known:
+            return f"none of {poses} poses is closed: whether parts clash is not known"
         clash = np.flatnonzero(self.clashing.any(axis=1)).tolist()
-        told = f"{poses - unknown} closed poses of {poses}" if unknown else f"{poses} poses"
+        told = f"{known} closed poses of {poses}" if known < poses else f"{poses} poses"
         lines = [f"{len(self.pairs)} pairs of parts come near each other in {told}: {len(clash)} clash"]
+        if known < poses:
+            lines.append(f"  whether parts clash at the {poses - known} other poses is not known")
         if self.first is not None:
             pose, pair = self.first
             lines.append(f"  first at pose {pose}: {self._named(pair)}, {self._length(self.depths[pair, pose])} deep")
@@ -90,14 +102,16 @@ class Clashes:
             row = np.nan_to_num(self.depths[pair])
             lines.append(
                 f"  {self._named(pair)}: clash at {np.sum(row > 0)} poses from pose {np.argmax(row > 0)} on, deepest "
-                f"{self._length(row.max())} at pose {np.argmax(row)}"
+                f"{self._length(row.max())} at pose {self._first_at(row, row.max())}"
             )
         free = [pair for pair in range(len(self.pairs)) if pair not in clash and not self.joined[pair]]
         least = {pair: np.where(np.isnan(self.clearances[pair]), np.inf, self.clearances[pair]) for pair in free}
         near = sorted((pair for pair in free if np.isfinite(least[pair]).any()), key=lambda pair: least[pair].min())
         for pair in near[:MAX_LINES]:
             row = least[pair]
-            lines.append(f"  {self._named(pair)}: nearest {self._length(row.min())} at pose {np.argmin(row)}")
+            lines.append(
+                f"  {self._named(pair)}: nearest {self._length(row.min())} at pose {self._first_at(row, row.min())}"
+            )
         left = max(0, len(clash) - MAX_LINES) + max(0, len(near) - MAX_LINES)
         if left:
             lines.append(f"  and {left} more pairs: see .pairs and .clearances")
@@ -109,7 +123,9 @@ class Clashes:
         lowest = np.where(np.isfinite(self.clearances), self.clearances, np.inf).min(axis=1, initial=np.inf)
         order = [int(pair) for pair in np.argsort(lowest) if lowest[pair] < 0 or not self.joined[pair]][:MAX_LINES]
         label = f"clearance ({self.unit})" if self.unit else "clearance"
-        title = "below 0: depth of a clash" if self.clashing.any() else "no clash"
+        title = "below 0: depth of a clash" if self.clashing.any() else "no clash" if self.closed.any() else "not known"
+        if not self.closed.all():
+            title += f"; {np.sum(~self.closed)} of {len(self.closed)} poses are not closed"
         return draw_lines([self._named(pair) for pair in order], self.clearances[order], label, title, Path(path))
 
     def save(self, path: str | Path) -> Path:
@@ -119,6 +135,10 @@ class Clashes:
 
     def _named(self, pair: int) -> str:
         return " - ".join(self.pairs[pair])
+
+    def _first_at(self, row: np.ndarray, value: float) -> int:
+        """Find the first pose whose length is a given one but for rounding."""
+        return int(np.argmax(np.abs(row - value) <= _SAME_LENGTH * abs(value) + _NO_LENGTH * self.within))
 
     def _length(self, value: float) -> str:
         return f"{value:.4g} {self.unit}".rstrip()
@@ -142,10 +162,11 @@ def clashes(
     its contacts. So a pin in its own hole is no clash, but the same pin through a wall is. Overlaps that are less deep
     than those lengths are not told.
 
-    The depth is the largest distance from the surface of one part of a point of the other that is inside of it: corners
-    of triangles, and middles of the pieces of their edges that are inside. Where there is none, because two parts
-    coincide, it is that of a point half-way through a part. Poses between those of the motion are not
-    looked at.
+    The depth is at most the largest distance from the surface of one part of a point of the surface of the other that
+    is inside of it: it is that of the deepest of some points, which are corners of triangles, middles of the pieces of
+    their edges that are inside, and points of the largest triangles of each face. Where none of them is inside, because
+    faces lie on each other, it is that of a point half-way through a part. Poses between those of the motion are not
+    looked at, and of those that are not closed nothing is known.
 
     Raises ValueError for a mechanism without solids, for names that are not there, for lengths that are negative, and
     inside `jit`, `vmap` and `grad`.
@@ -166,7 +187,8 @@ def clashes(
     within = WITHIN * size(mechanism.solids) if within is None else float(within)
     still = SAME_PLACE * setting.length
     least = setting.length if tolerance is None else float(tolerance)
-    (closed,) = np.nonzero(np.asarray(motion.closed))
+    is_closed = np.asarray(motion.closed)
+    (closed,) = np.nonzero(is_closed)
     places = [np.asarray(motion.transforms[part.name], float)[closed] for part in mechanism.solids]
     shapes = [shape_of(part) for part in mechanism.solids]
     boxes = np.stack([boxes_along(shape, place) for shape, place in zip(shapes, places, strict=True)])
@@ -188,7 +210,7 @@ def clashes(
             joined.append(is_joined)
             rows.append(row)
     clearances = np.stack(rows) if rows else np.zeros((0, len(motion)))
-    return Clashes(tuple(pairs), np.array(joined, bool), clearances, within, mechanism.unit)
+    return Clashes(tuple(pairs), np.array(joined, bool), clearances, is_closed, within, mechanism.unit)
 
 
 def _compared(mechanism: Mechanism, setting: FaceSetting, ignore: Sequence[Sequence[str]]) -> np.ndarray:
@@ -245,25 +267,15 @@ def _clearances(
     if joined and not len(crossings(one.tree, other.tree, moved.at(np.array([0])), slack).pose):
         slack = slack._replace(ignored=slack.ignored | invariant(one, other, moved, still))
     crossed = crossings(one.tree, other.tree, moved, slack)
-    inside = np.maximum(_middle_depths(one, other, moved.inverse()), _middle_depths(other, one, moved))
-    suspects = np.union1d(crossed.pose, np.flatnonzero(inside > slack.least))
+    on_faces, amid = sampled_depths(one, other, moved, slack)
+    suspects = np.union1d(crossed.pose, np.flatnonzero(np.maximum(on_faces, amid)))
     result = np.zeros(count)
     if len(suspects):
         here = crossed._replace(pose=np.searchsorted(suspects, crossed.pose))
-        deep = depths(one, other, moved.at(suspects), here, slack)
-        # two solids that coincide have no corner in each other
-        result[suspects] = -np.where(deep > 0, deep, np.where(inside > slack.least, inside, 0.0)[suspects])
+        deep = np.maximum(depths(one, other, moved.at(suspects), here, slack), on_faces[suspects])
+        # two solids that coincide have no point of their surfaces in each other
+        result[suspects] = -np.where(deep > 0, deep, amid[suspects])
     free = np.flatnonzero(result == 0)
     if not joined and len(free):
         result[free] = distances(one.tree, other.tree, moved.at(free), within) if within else np.inf
     return result
-
-
-def _middle_depths(one: Shape, other: Shape, moved: Displaced) -> Float[np.ndarray, " poses"]:
-    """Measure how deep a point inside of shape 1, which is displaced, is in shape 2; 0 where it is outside."""
-    count = len(moved.shift)
-    points = moved.of(np.arange(count), np.tile(one.middle, (count, 1)))
-    found = np.zeros(count)
-    (near,) = np.nonzero(np.all((points > other.tree.low[0]) & (points < other.tree.high[0]), axis=-1))
-    found[near] = np.maximum(-other.tree.signed_distances(points[near])[0], 0.0)
-    return found
