@@ -1,8 +1,8 @@
 """Measure how deep two solids are in each other, where their triangles cross or the one is inside of the other.
 
 The depth is the largest distance from the surface of one solid of a point of the surface of the other that is inside of
-it, or less: the points are corners, and the middles of those pieces of edges that are cut out by the triangles they go through:
-two bars that cross have no corner in each other.
+it, or less: the points are corners, and the middles of those pieces of edges that are cut out by the triangles they go
+through: two bars that cross have no corner in each other.
 """
 
 from __future__ import annotations
