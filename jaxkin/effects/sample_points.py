@@ -13,9 +13,10 @@ from jaxtyping import Float, Int
 
 from jaxkin.geometry.triangle_distance import Points, Triangles
 
-_OF_FACE = 4
+_OF_FACE = 16
 """Triangles of a face of which points are taken, the largest ones: one would do but for faces that lie partly on the
-other surface."""
+other surface. Of 20,580 placements of solids of cubes, which share many planes, 4 missed 12 overlaps, 8 missed 3 and 16
+none; for 361 poses of `benchmarks/clashes.py` without clearances 16 took 9 s in place of 8."""
 _MAX_CORES = 8
 """Faces below which points inside are taken, the largest ones: each costs a ray through all triangles."""
 _STARTS = 1e-7

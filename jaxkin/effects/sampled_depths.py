@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from jaxtyping import Bool, Float, Int
+from jaxtyping import Float, Int
 
 from jaxkin.effects.clash_shapes import Shape
 from jaxkin.geometry.displaced import Displaced
 from jaxkin.geometry.tree_crossings import Slack
+from jaxkin.geometry.triangle_distance import Points
 
 _STRIDES = (16, 1)
 """Successive displacements that are looked at together, by the one in their middle: a point that is farther from the
@@ -37,48 +38,45 @@ def _of_first(one: Shape, other: Shape, displaced: Displaced, slack: Slack) -> F
     # faces that the motion maps onto themselves are as near the other solid as at the first displacement
     invariant = np.asarray(np.all(slack.ignored, axis=1))[one.labels[surface.triangle]]
     once = np.concatenate([invariant, np.zeros(len(cores), bool)])
-    count, size = len(displaced.shift), max(1, _AT_ONCE // len(points))
-    found, lasting = np.zeros((2, count)), 0.0
+    _, _, lasting = _inside(points[once], allowed[once], displaced.at(np.array([0])), other, slack.second)
+    points, allowed, on_surface = points[~once], allowed[~once], on_surface[~once]
+    count, size = len(displaced.shift), max(1, _AT_ONCE // max(1, len(points)))
+    found = np.zeros((2, count))
+    found[0] = lasting.max(initial=0.0)
     for begin in range(0, count, size):
         some = displaced.at(np.arange(begin, min(begin + size, count)))
-        places = np.swapaxes(points @ np.swapaxes(some.rotation, 1, 2) + some.shift[:, None], 0, 1)
-        looked_at = ~once[:, None] | (np.arange(begin, begin + len(some.shift)) == 0)
-        point, pose, depth = _inside(places, looked_at, allowed, other, slack.second)
+        point, pose, depth = _inside(points, allowed, some, other, slack.second)
         np.maximum.at(found, (np.where(on_surface[point], 0, 1), begin + pose), depth)
-        lasting = max(lasting, float(depth[once[point]].max(initial=0.0)))
-    found[0] = np.maximum(found[0], lasting)
     return found
 
 
 def _inside(
-    places: Float[np.ndarray, "points poses 3"],
-    looked_at: Bool[np.ndarray, "points poses"],
-    allowed: Float[np.ndarray, " points"],
-    other: Shape,
-    slack: Float[np.ndarray, " triangles"],
+    points: Points, allowed: Float[np.ndarray, " points"], displaced: Displaced, other: Shape, slack: np.ndarray
 ) -> tuple[Int[np.ndarray, " _"], Int[np.ndarray, " _"], Float[np.ndarray, " _"]]:
-    """Find the places of points that are deeper in a shape than what is allowed: point, displacement and depth."""
-    count = places.shape[1]
-    inset = allowed[:, None, None]
-    in_box = np.all((places > other.tree.low[0] + inset) & (places < other.tree.high[0] - inset), axis=-1)
-    near = in_box & looked_at
+    """Find where displaced points are deeper in a shape, whose triangles have slacks, than what is allowed.
+
+    Returns the point, the displacement and the depth of each place.
+    """
+    count = len(displaced.shift)
+    # one coordinate a row: comparisons of long rows are quick
+    places = displaced.rotation.transpose(1, 0, 2) @ points.T + displaced.shift.T[:, :, None]
+    near = np.ones((count, len(points)), bool)
+    for along, low, high in zip(places, other.tree.low[0], other.tree.high[0], strict=True):
+        near &= (along > low + allowed) & (along < high - allowed)
     for stride in _STRIDES:
         begin = np.arange(0, count, stride)
-        middle = np.minimum(begin + stride // 2, count - 1)
-        point, group = np.nonzero(np.logical_or.reduceat(near, begin, axis=1))
+        group, point = np.nonzero(np.logical_or.reduceat(near, begin, axis=0))
         if not len(point):
             break
-        place = places[point, middle[group]]
-        height, nearest = other.tree.signed_distances(place)
+        place = places[:, np.minimum(begin + stride // 2, count - 1)[group], point]
+        height, nearest = other.tree.signed_distances(np.ascontiguousarray(place.T))
         if stride == 1:
             deep = -height > allowed[point] + slack[nearest]
             return point[deep], group[deep], -height[deep]
-        moved = [
-            np.linalg.norm(places[point, np.minimum(begin[group] + k, count - 1)] - place, axis=-1)
-            for k in range(stride)
-        ]
-        deep = np.max(moved, axis=0) - height > allowed[point]
-        within = np.zeros((len(places), len(begin)), bool)
-        within[point[deep], group[deep]] = True
-        near &= np.repeat(within, stride, axis=1)[:, :count]
+        among = np.minimum(begin[group] + np.arange(stride)[:, None], count - 1)
+        moved = np.linalg.norm(places[:, among, point] - place[:, None], axis=0).max(axis=0)
+        within = np.zeros((len(begin), len(points)), bool)
+        deep = moved - height > allowed[point]
+        within[group[deep], point[deep]] = True
+        near &= np.repeat(within, stride, axis=0)[:count]
     return np.zeros(0, int), np.zeros(0, int), np.zeros(0)
