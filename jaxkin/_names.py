@@ -67,9 +67,9 @@ def nearest(name: str, known: Iterable[str]) -> str:
     return f"; there is {listed([repr(other) for other in known])}"
 
 
-def free_name(name: str, taken: Container[str]) -> str:
-    """Return the first of "name", "name#2", "name#3", ... that is not taken."""
-    numbered = (name if number == 1 else f"{name}#{number}" for number in count(1))
+def free_name(name: str, taken: Container[str], first: int = 1) -> str:
+    """Return the first of "name", "name#2", "name#3", ... that is not taken, from number `first` on."""
+    numbered = (name if number == 1 else f"{name}#{number}" for number in count(first))
     return next(each for each in numbered if each not in taken)
 
 

@@ -31,10 +31,10 @@ def closed_export(
     """Move the parts of an export to a pose in which the two frames of each joint coincide as its movement allows.
 
     `frames_2` are the frames (frames, 4, 4) of each constraint on the side of its second part; those of the first part
-    are in its chain. Motors, locked coordinates and those that others follow at a distance are held where the file has
-    them, if the loops close so. Limits and
-    values of joints are counted on. Notes tell how far parts were moved; where the loops do not close, nothing is
-    moved, each joint is taken as it stands on its first part, and a note tells how far they are open.
+    are in its chain. Motors, locked coordinates and those that others follow with an offset are held where the file has
+    them, if the loops close so. Limits and values of joints are counted on. Notes tell how far parts were moved; where
+    the loops do not close, nothing is moved, each joint is taken as it stands on its first part, and a note tells how
+    far they are open.
     """
     joints = [_joint(each, frames) for each, frames in zip(exported.constraints, frames_2, strict=True)]
     couplings = counted_from(exported.couplings, joints, exported.joint_values)

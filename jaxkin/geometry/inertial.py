@@ -36,10 +36,11 @@ class Inertial:
 
 
 def sum_of(several: Sequence[Inertial]) -> Inertial:
-    """Add up masses that are rigid with each other, about one origin and in one set of axes; lengths in metres."""
+    """Add up masses that are rigid with each other and not all zero, in the same axes; lengths in metres.
+
+    About the common centre: I = sum I_k + m_k (d_k^2 1 - d_k d_k^T), with d_k from there to the centre of mass k.
+    """
     mass = sum(each.mass for each in several)
-    if mass == 0:
-        return replace(NONE, inertia=sum((each.inertia for each in several), np.zeros((3, 3))))
     centre = sum((each.mass * each.centre for each in several), np.zeros(3)) / mass
     inertia = np.zeros((3, 3))
     for each in several:

@@ -15,7 +15,7 @@ import numpy as np
 
 from jaxkin._names import listed
 from jaxkin.geometry.inertial import NONE, Inertial
-from jaxkin.geometry.pose import Pose
+from jaxkin.geometry.pose import Pose, inverse
 from jaxkin.io.mjcf_attach import attached
 from jaxkin.io.mjcf_keyframe import at_keyframe
 from jaxkin.io.mjcf_masses import body_masses
@@ -157,7 +157,7 @@ class _Reader:
                 if shape is None and self.shapes.is_solid(each, child_class):
                     self.found.notes.append(f"{where}: it has no size that such a solid has; left out")
                 elif shape is not None:
-                    place = np.linalg.inv(self.found.poses[body]) @ at @ shape.pose
+                    place = inverse(self.found.poses[body]) @ at @ shape.pose
                     self.found.shapes[body].append(replace(shape, pose=place))
             elif each.tag == "site" and each.get("name"):
                 said = self.defaults.said(each, child_class)
@@ -174,13 +174,13 @@ class _Reader:
         pose = at @ self.compiler.pose(element.attrib, where)
         found.poses[name], found.shapes[name] = pose, []
         own = [*self._own(element, pose, child_class)]
-        inverse = np.linalg.inv(pose)
-        said = body_masses([(each, inverse @ at, of) for each, at, of in own], self.shapes, where, found.notes)
+        in_body = [(each, inverse(pose) @ at, of) for each, at, of in own]
+        said = body_masses(in_body, self.shapes, where, found.notes)
         if isinstance(said, Inertial):
             found.inertials[name] = said
         elif said is not None:
             found.weighed[name] = said
-        if element.get("gravcomp", "0") not in ("0", "0.0"):
+        if float(numbers(element.get("gravcomp"), 1, f"{where}: gravcomp", (0,))[0]):
             found.notes.append(f"{where}: its gravcomp is not kept: gravity acts on it as on all others")
         joints = [each for each in own if each[0].tag in ("joint", "freejoint")]
         free = any(

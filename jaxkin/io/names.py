@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import unicodedata
 from collections.abc import Iterable
-from itertools import count
+
+from jaxkin._names import free_name
 
 MAX_NAME_LETTERS = 60
 """Letters of a name; exporters chain the names of files into longer ones, which no table or message has room for."""
@@ -43,8 +44,7 @@ def unique(names: Iterable[str]) -> list[str]:
     result: dict[str, None] = {}
     used: dict[str, int] = {}
     for name in names:
-        numbered = (name if number == 1 else f"{name}#{number}" for number in count(used.get(name, 1)))
-        result[next(candidate for candidate in numbered if candidate not in result)] = None
+        result[free_name(name, result, used.get(name, 1))] = None
         used[name] = used.get(name, 1) + 1
     return list(result)
 

@@ -14,7 +14,7 @@ from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.first_order import independent
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
-from jaxkin.mobility.mobility import drivable, independent_subset, names
+from jaxkin.mobility.mobility import drivable, independent_subset, names, outside_loops
 
 Coordinate = tuple[int, int]
 """(joint, coordinate)."""
@@ -203,16 +203,8 @@ def undriven_freedoms(linkage: Linkage, driven: Sequence[Coordinate]) -> tuple[s
 def resting_freedoms(linkage: Linkage, driven: Collection[str]) -> tuple[str, ...]:
     """Name the coordinates that a drive ("joint.coordinate") leaves free: in loops, without those of idle freedoms, and
     outside of loops, without those of parts that only spin."""
-    spinning = {part.name for part in linkage.spinning}
-    in_loops = {joint for group in linkage.structure.loop_groups for joint in group.joints}
-    outside = (
-        f"{joint.name}.{own}"
-        for number, joint in enumerate(linkage.joints)
-        if number not in in_loops and not spinning & {*joint.parts}
-        for own in joint.coordinates
-    )
     free = undriven_freedoms(linkage, [coordinate(linkage, name) for name in driven])
-    return (*free, *(name for name in outside if name not in driven))
+    return (*free, *(name for name in outside_loops(linkage) if name not in driven))
 
 
 def _loops_of(found: LoopFreedoms) -> str:

@@ -93,19 +93,29 @@ def mobility(linkage: Linkage, unit: str = "") -> Mobility:
     return _of_closed(linkage)
 
 
+def outside_loops(linkage: Linkage) -> list[str]:
+    """Name the coordinates of joints outside of loops, "joint.coordinate", without those of parts that only spin."""
+    spinning, in_loops = {part.name for part in linkage.spinning}, _in_loops(linkage)
+    return [
+        f"{joint.name}.{coordinate}"
+        for index, joint in enumerate(linkage.joints)
+        if index not in in_loops and not spinning & {*joint.parts}
+        for coordinate in joint.coordinates
+    ]
+
+
+def _in_loops(linkage: Linkage) -> set[int]:
+    return {joint for loop_group in linkage.structure.loop_groups for joint in loop_group.joints}
+
+
 @once_for_each
 def _of_closed(linkage: Linkage) -> Mobility:
     """Compute the mobility of a linkage whose loops are closed in the assembled pose."""
     every = loop_freedoms(linkage)
     mobile = [found for found in every if len(found.motions)]
     spins = {part.name: part.freedoms for part in linkage.spinning}
-    in_loops = {joint for loop_group in linkage.structure.loop_groups for joint in loop_group.joints}
-    outside = [
-        f"{joint.name}.{coordinate}"
-        for index, joint in enumerate(linkage.joints)
-        if index not in in_loops and not spins.keys() & set(joint.parts)
-        for coordinate in joint.coordinates
-    ]
+    in_loops = _in_loops(linkage)
+    outside = outside_loops(linkage)
     kinds = tuple(found.subgroup(dict(loop)) for found in every for loop in found.loop_group.loops)
     at_ends = sum(joint.freedoms for index, joint in enumerate(linkage.joints) if index not in in_loops)
     coordinates = sum(joint.freedoms for joint in linkage.joints)

@@ -126,6 +126,12 @@ def test_a_gravity_that_is_not_kept_is_told(option, tmp_path):
     assert not any("gravity" in note for note in loaded(model("<geom size='.1'/>"), tmp_path).notes)
 
 
+@pytest.mark.parametrize(("written", "told"), [("1", True), ("0.00", False)])
+def test_a_body_that_gravity_does_not_act_on_is_told(written, told, tmp_path):
+    text = model("<geom size='.1'/>").replace("<body name='a'", f"<body name='a' gravcomp='{written}'")
+    assert any("gravcomp is not kept" in note for note in loaded(text, tmp_path).notes) is told
+
+
 def test_a_gravity_of_sdf_is_told(tmp_path):
     (tmp_path / "arm.sdf").write_text(
         "<sdf version='1.10'><world name='w'><gravity>0 -3 0</gravity><model name='m'><link name='a'/>"

@@ -18,7 +18,7 @@ from jaxkin.effects.forces.given import Applied, rows_per_pose
 from jaxkin.effects.forces.masses import Masses
 from jaxkin.effects.forces.reactions import HELD, Reactions, reactions
 from jaxkin.effects.forces.screws import Scale
-from jaxkin.effects.forces.wrenches import STANDARD_GRAVITY, units_of
+from jaxkin.effects.forces.wrenches import STANDARD_GRAVITY, Acting, loads_and_frictions, units_of
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.units import METRES
@@ -145,12 +145,12 @@ def equilibrium(
     drive = by_name(drive, "driven displacements", "{'A': np.linspace(0, 2 * np.pi, 73)}")
     if traced(mechanism, dict(drive), masses, applied):
         raise ValueError("equilibria are found on the host: call jk.equilibrium outside of jit, vmap and grad")
-    loads = [applied] if isinstance(applied, Applied) else applied
-    if rows := next(((each, names) for each in loads if (names := rows_per_pose(each))), None):
-        raise ValueError(
-            f"loads of an equilibrium are the same in all poses, and {type(rows[0]).__name__} has {', '.join(rows[1])} "
-            "with one row a pose: give single numbers, or find where jk.drive_forces vanishes along a sweep"
-        )
+    for load in loads_and_frictions(Acting(masses, gravity, applied))[0]:
+        if rows := rows_per_pose(load):
+            raise ValueError(
+                f"loads of an equilibrium are the same in all poses, and {type(load).__name__} has {', '.join(rows)} "
+                "with one row a pose: give single numbers, or find where jk.drive_forces vanishes along a sweep"
+            )
     given = {key: np.unique(numbers(some, f"the range of {key!r}").ravel()) for key, some in drive.items()}
     if not given:
         raise ValueError("an equilibrium is found along a driven coordinate: give {'A': np.linspace(0, 2 * np.pi, 73)}")

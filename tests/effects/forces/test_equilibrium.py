@@ -184,3 +184,13 @@ def test_loads_with_one_row_a_pose_are_refused():
     own = jk.masses(pendulum(), given={"arm": jk.Mass(2.0, (0.3, 0.4, 0.0))})
     with pytest.raises(ValueError, match="the same in all poses, and JointLoad has load with one row a pose"):
         jk.equilibrium(pendulum(), {"A": angles}, own, applied=jk.joint_load("A", np.cos(angles)))
+
+
+@pytest.mark.parametrize(
+    ("applied", "told"),
+    [(["weight"], "applied loads are made by jk.force"), (jk.joint_friction("A", 0.1, radius=0.1), "rates")],
+)
+def test_loads_that_are_none_are_told(applied, told):
+    own = jk.masses(pendulum(), given={"arm": jk.Mass(2.0, (0.3, 0.4, 0.0))})
+    with pytest.raises(ValueError, match=told):
+        jk.equilibrium(pendulum(), {"A": np.linspace(-3.0, 3.0, 25)}, own, applied=applied)
