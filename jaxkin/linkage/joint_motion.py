@@ -10,7 +10,7 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
-from jaxkin._traced import traced
+from jaxkin._traced import inside_trace, traced
 from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.movements import displace_point, displaced
 from jaxkin.geometry.rigid import Rigid, as_matrices, as_rigid, inverse, product
@@ -31,7 +31,8 @@ def part_transforms(linkage: Linkage, displacements: Displacements) -> tuple[Flo
     Ranges of known numbers are padded to a few lengths, so that those of similar length share a compiled program.
     """
     poses = displacements[0].shape[0]
-    if not 0 < poses <= MAX_PADDED_POSES or traced((linkage, displacements)) or _on_several_devices(displacements):
+    unknown = traced((linkage, displacements)) or inside_trace()
+    if not 0 < poses <= MAX_PADDED_POSES or unknown or _on_several_devices(displacements):
         return transforms(linkage.structure, linkage.joints, displacements)
     length = 2 ** max(5, (poses - 1).bit_length())
     # on the host: there it costs a copy, not a program for every length

@@ -59,6 +59,14 @@ def test_a_part_goes_through_all_joints_up_to_it(arm, angles):
             np.testing.assert_allclose(found[part][pose], product, rtol=0, atol=ROUNDING)
 
 
+def test_poses_known_outside_are_placed_inside_jit(arm, angles):
+    """A loss compares designs, which JAX traces, with a motion, which it does not."""
+    columns = dict(zip(POINTS, angles, strict=True))
+    motion = arm.sweep(columns)
+    inside = jax.jit(lambda: motion.points("hand", (60.0, 40.0, 0.0)))()
+    np.testing.assert_allclose(inside, arm.sweep(columns).points("hand", (60.0, 40.0, 0.0)), rtol=0, atol=ROUNDING)
+
+
 @pytest.mark.long  # the default run compiles without the optimisation that once rounded them differently
 @pytest.mark.parametrize("how", ["plain", "jit", "vmap", "jvp"])
 def test_what_is_held_rigidly_moves_exactly_with_its_holder(arm, angles, how):
