@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
+from jaxkin import __version__
 from jaxkin.cli import run
 from jaxkin.cli.arguments import (
     Drawing,
@@ -26,6 +27,7 @@ from jaxkin.cli.arguments import (
     Seconds,
     Unit,
     Verbose,
+    Version,
     WorkPicture,
     Written,
 )
@@ -42,6 +44,13 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     help="Kinematics of mechanisms: from solid models to joints, loops and motion.",
 )
+
+
+@app.callback(invoke_without_command=True)
+def before_commands(version: Version = False) -> None:
+    if version:
+        typer.echo(f"jaxkin {__version__}")
+        raise typer.Exit
 
 
 @app.command(epilog="Example:  jaxkin demo --out motion")

@@ -106,6 +106,7 @@ PerContact = Annotated[
 ]
 
 
+Version = Annotated[bool, typer.Option("--version", help="Print the version, and do nothing else.")]
 Verbose = Annotated[
     bool, typer.Option("--verbose", help="List everything: every part, contact and note, however many there are.")
 ]
