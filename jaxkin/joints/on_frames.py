@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from jaxkin._arguments import one_number
 from jaxkin._names import nearest
 from jaxkin._traced import traced
 from jaxkin.geometry.movements import MOVEMENTS
@@ -52,8 +53,10 @@ def joint_on_frames(
     forbids: then the mechanism is open in this pose, and `mechanism.close()` closes it. A universal joint has its axis
     on part 1 along z of `frame1`, and that on part 2 along z of `frame2`.
 
-    `kind` is "revolute", "prismatic", "cylindrical", "planar", "spherical", "universal", "screw" or "fixed". Raises
-    ValueError for other kinds, for what is no rigid pose, and for axes of a universal joint that are not perpendicular.
+    `kind` is "revolute", "prismatic", "cylindrical", "planar", "spherical", "universal", "screw" or "fixed". `pitch` is
+    the advance of a screw per turn, unit of the mechanism; its limits count whole turns, told by its advance. Raises
+    ValueError for other kinds, for what is no rigid pose, for axes of a universal joint that are not perpendicular, and
+    for the pitch of what is no screw.
     """
     if kind not in MOVEMENT_OF:
         raise ValueError(f"joint {name!r}: there is no kind {kind!r} of two frames{nearest(str(kind), MOVEMENT_OF)}")
@@ -61,20 +64,29 @@ def joint_on_frames(
         _rigid(name, f"the place of {part!r}", (places or {}).get(part, np.eye(4))) @ _rigid(name, label, given)
         for part, label, given in ((part1, "frame1", frame1), (part2, "frame2", frame2))
     ]
+    turn = _pitch(name, kind, pitch)
     try:
-        found = two_frames(JointKind(kind), *world)
+        found = two_frames(JointKind(kind), *world, pitch=turn)
     except ValueError as error:
         raise ValueError(f"joint {name!r}: {error}") from None
-    if not np.isfinite(pitch):
-        raise ValueError(f"joint {name!r}: pitch must be a finite number, the advance per turn, got {pitch!r}")
-    movement = MOVEMENT_OF[JointKind(kind)]
-    turn = np.asarray(float(pitch) if MOVEMENTS[movement].has_pitch else 0.0)
-    frames = found.frame_1[None], found.frame_2[None]
-    made = with_limits(Joint(name, (part1, part2), JointKind(kind), (movement,), *frames, turn, BY_HAND), limits)
+    frames, movements = (found.frame_1[None], found.frame_2[None]), (MOVEMENT_OF[JointKind(kind)],)
+    made = Joint(name, (part1, part2), JointKind(kind), movements, *frames, np.asarray(turn), BY_HAND)
+    made = with_limits(made, limits)
     return shifted(made, np.array(found.values)) if made.limits and found.values else made
 
 
+def _pitch(name: str, kind: str, given: Any) -> float:
+    """Check the pitch of a joint: zero unless it is a screw; ValueError for others, and for traced ones."""
+    if traced(given):
+        raise ValueError(f"joint {name!r}: the pitch is traced; make the joint outside of jit, vmap and grad")
+    found = float(one_number(given, f"joint {name!r}: pitch", "a finite number, the advance per turn"))
+    if found and kind != JointKind.SCREW:
+        raise ValueError(f"joint {name!r}: only a screw has a pitch, got pitch={given!r} of kind {kind!r}")
+    return found
+
+
 def _rigid(name: str, what: str, given: Any) -> Pose:
+    """Check a rigid 4x4 pose, which `what` names; ValueError for what is none, and for a traced one."""
     if traced(given):
         raise ValueError(f"joint {name!r}: {what} is traced; make the joint outside of jit, vmap and grad")
     try:

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from jaxkin.geometry.pose import Pose, inverse, rotation, unit
+from jaxkin.geometry.trig import TURN
 from jaxkin.joints.kinds import JointKind
 
 PERPENDICULAR = 1e-6
@@ -22,16 +23,17 @@ class TwoFrames(NamedTuple):
     frame_1: Pose
     frame_2: Pose
     values: tuple[float, ...]
-    """What the frames as they were given make the coordinates there: angles in -pi to pi; empty for joints of which
-    only the axes, or the point, are given."""
+    """What the frames as they were given make the coordinates there: angles in -pi to pi, that of a screw with whole
+    turns; empty for joints of which only the axes, or the point, are given."""
 
 
-def two_frames(kind: JointKind, first: Pose, second: Pose) -> TwoFrames:
+def two_frames(kind: JointKind, first: Pose, second: Pose, pitch: float = 0.0) -> TwoFrames:
     """Move the frames of a joint along what it leaves free, until they differ only in what it forbids.
 
     `first` and `second` (4, 4) are the frames on part 1 and part 2, in world coordinates, where the parts are now; the
     axis of a joint is z, of a universal joint z on each part. Frames that agree in what the joint forbids coincide
-    afterwards: the joint is closed. Raises ValueError for the axes of a universal joint that are not perpendicular.
+    afterwards: the joint is closed. A screw of this `pitch`, its advance per turn, is closed at any advance, as nothing
+    says where its thread begins. Raises ValueError for the axes of a universal joint that are not perpendicular.
     """
     if kind is JointKind.SPHERICAL:
         return TwoFrames(_at(first[:3, 3]), _at(second[:3, 3]), ())
@@ -44,6 +46,8 @@ def two_frames(kind: JointKind, first: Pose, second: Pose) -> TwoFrames:
     between = inverse(first) @ second
     angle = float(np.arctan2(between[1, 0], between[0, 0]))
     advance = float(between[2, 3])
+    if kind is JointKind.SCREW and pitch:  # its advance tells the whole turns, which frames do not
+        angle += TURN * round(advance / pitch - angle / TURN)
     turns = kind in (JointKind.REVOLUTE, JointKind.CYLINDRICAL, JointKind.PLANAR, JointKind.SCREW)
     slides = kind in (JointKind.PRISMATIC, JointKind.CYLINDRICAL, JointKind.SCREW)
     back = np.eye(4)

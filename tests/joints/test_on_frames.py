@@ -93,3 +93,27 @@ def test_what_makes_no_joint_is_refused(more, message):
     given = {"kind": "revolute", "frame1": np.eye(4), "frame2": np.eye(4)} | more
     with pytest.raises(ValueError, match=message):
         jk.joint_on_frames("A", "a", "b", **given)
+
+
+@pytest.mark.parametrize("pitch", [1.0, -0.5])
+def test_limits_of_a_screw_count_the_turns_that_its_advance_tells(pitch):
+    """A nut two and a tenth turns along its thread has so much less to go."""
+    turns = 2.1
+    made = jk.joint_on_frames(
+        "S",
+        "bolt",
+        "nut",
+        kind="screw",
+        frame1=np.eye(4),
+        frame2=np.eye(4),
+        places={"nut": turned(2 * np.pi * turns, z=pitch * turns)},
+        pitch=pitch,
+        limits=(0, 20 * np.pi),
+    )
+    np.testing.assert_allclose(made.limits[0], np.array([0, 20 * np.pi]) - 2 * np.pi * turns, atol=1e-13)
+
+
+@pytest.mark.parametrize(("kind", "pitch"), [("screw", "2"), ("screw", np.inf), ("revolute", 1.0)])
+def test_a_pitch_is_the_number_of_a_screw(kind, pitch):
+    with pytest.raises(ValueError, match=r"joint 'S'.*pitch"):
+        jk.joint_on_frames("S", "a", "b", kind=kind, frame1=np.eye(4), frame2=np.eye(4), pitch=pitch)
