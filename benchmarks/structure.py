@@ -53,7 +53,7 @@ def analysed(description: Description) -> tuple[Structure, float]:
 
 
 def main() -> None:
-    analysed(ring(10))  # networkx is imported on first use
+    analysed(ring(10))
     print("graph  parts  joints  loops  joints a loop  analysed [s]")
     for graph in (truss, ring):
         for parts in PARTS:

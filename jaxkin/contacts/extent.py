@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin.contacts.rim import numbered
 from jaxkin.geometry.part import Face
 from jaxkin.geometry.pose import Points, Vector
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere
@@ -60,8 +61,7 @@ def _ends(corners: Points, values: Float[np.ndarray, " corners"]) -> tuple[float
     extremum by at most an eighth of the difference of the first and the third smallest (or largest) value, and by
     nothing where the rim is at constant height.
     """
-    scale = 1e-7 * float(np.ptp(corners, axis=0).max()) or 1.0  # most readers keep corners in single precision
-    _, first = np.unique(np.round((corners - corners[0]) / scale), axis=0, return_index=True)
+    _, first = np.unique(numbered(corners), return_index=True)
     values = np.sort(values[first])
     third = min(2, len(values) - 1)
     return float(values[0] - (values[third] - values[0]) / 8), float(values[-1] + (values[-1] - values[-1 - third]) / 8)

@@ -19,6 +19,7 @@ from jaxkin.effects.calibration_result import Calibration
 from jaxkin.effects.calibration_unknowns import Unknowns, nominal_values, unknowns_of
 from jaxkin.effects.rank_deficient_fit import Fit, fit, readable, told
 from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.mechanism.targets import extent
 from jaxkin.solve.options import SolverOptions, options_with
 
 SMALL = 1e-6
@@ -85,7 +86,7 @@ def calibrate(
     model = Model(unknowns, data.kinds, tuple(driven), options_with(options))
     inputs = tuple(np.asarray(values, float) for values in driven.values())
     nominal = nominal_values(mechanism, unknowns)
-    scales = np.where(unknowns.are_angles(mechanism.linkage), 1.0, _size(mechanism))
+    scales = np.where(unknowns.are_angles(mechanism.linkage), 1.0, extent(mechanism))
 
     def evaluate(scaled: Float[np.ndarray, " unknowns"]):
         changes = scales * scaled
@@ -186,9 +187,3 @@ def _check_start(reached: Bool[Array, " poses"]) -> None:
             f"the given mechanism does not close at {len(lost)} of {len(reached)} measured poses, first at pose "
             f"{lost[0]}: start from lengths with which it does, or leave these poses out"
         )
-
-
-def _size(mechanism: Mechanism) -> float:
-    """Largest extent of the joints, in the unit of the mechanism."""
-    origins = np.concatenate([np.asarray(joint.frames_1, float)[:, :3, 3] for joint in mechanism.all_joints])
-    return float(np.ptp(origins, axis=0).max()) or 1.0

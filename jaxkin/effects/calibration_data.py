@@ -10,15 +10,13 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin._arguments import by_name
+from jaxkin._arguments import by_name, positive_number
 from jaxkin._names import nearest
 from jaxkin.geometry.movements import is_length
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
-from jaxkin.mechanism.targets import Target
-
-SHAPES = {"pose": (4, 4), "point": (3,), "orientation": (3, 3)}
+from jaxkin.mechanism.targets import Target, middle_of_joints
 
 
 @dataclass(frozen=True)
@@ -53,8 +51,7 @@ class Kind:
         )
         if self.key.kind == "orientation":
             return turn
-        held = [joint for joint in motion.mechanism.all_joints if self.key.part in joint.parts]
-        middle = jnp.mean(jnp.stack([jnp.asarray(joint.frames_1)[0, :3, 3] for joint in held]), axis=0)
+        middle = middle_of_joints(motion.mechanism.linkage, self.key.part)
         off = place - measured
         return jnp.concatenate([off[:, :3, :3] @ middle + off[:, :3, 3], turn], axis=1)
 
@@ -115,7 +112,7 @@ def _kind(mechanism: Mechanism, key: Any) -> Kind:
 
 
 def _array(kind: Kind, numbers: Any, poses: int) -> np.ndarray:
-    shape = (poses, *SHAPES[kind.key.kind]) if isinstance(kind.key, Target) else (poses,)
+    shape = (poses, *kind.key.shape) if isinstance(kind.key, Target) else (poses,)
     try:
         array = np.asarray(numbers, float)
     except (TypeError, ValueError):
@@ -136,6 +133,8 @@ def _check_rigid(kind: Kind, array: np.ndarray) -> None:
     off = np.abs(turn @ turn.swapaxes(1, 2) - np.eye(3)).max(initial=0.0)
     if off > 1e-3 or (np.linalg.det(turn) < 0).any():
         raise ValueError(f"{kind.name}: the measured rotations must be orthonormal and right-handed, off by {off:.2g}")
+    if kind.key.kind == "pose" and np.abs(array[:, 3] - [0.0, 0.0, 0.0, 1.0]).max(initial=0.0) > 1e-3:
+        raise ValueError(f"{kind.name}: the last row of the measured poses must be 0, 0, 0, 1; are they transposed?")
 
 
 def _deviations(kinds: list[Kind], sigma: Any) -> list[np.ndarray]:
@@ -169,10 +168,5 @@ def _deviations(kinds: list[Kind], sigma: Any) -> list[np.ndarray]:
 
 
 def _positive(what: str, given: Any) -> float:
-    try:
-        number = float(given)
-        if not (np.isfinite(number) and number > 0):
-            raise ValueError
-    except (TypeError, ValueError):
-        raise ValueError(f"{what} must be a positive number, a standard deviation, got {given!r}") from None
-    return number
+    """Check a standard deviation; ValueError for what is no positive number."""
+    return float(positive_number(given, what, "a positive number, a standard deviation"))

@@ -11,11 +11,12 @@ from typing import Any
 
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float
+from jaxtyping import Float
 
 from jaxkin._arguments import several
 from jaxkin._names import nearest
 from jaxkin._traced import traced
+from jaxkin.dimensions.feature_geometry import shifted, turned
 from jaxkin.dimensions.frames import locate
 from jaxkin.dimensions.lengths import find_length, length_now
 from jaxkin.geometry.pose import frame
@@ -80,7 +81,8 @@ class Unknowns:
             for side in sides:
                 frames = list(getattr(joints[column], side))
                 end = 0 if side == "frames_1" else -1
-                frames[end] = _moved(xp, xp.asarray(frames[end]), shift, turn)
+                frame = xp.asarray(frames[end])
+                frames[end] = shifted(xp, turned(xp, frame, turn, frame[:3, 3]), shift)
                 stacked = xp.stack(frames)
                 given = joints[column]
                 joints[column] = (
@@ -167,22 +169,3 @@ def _components(place: Any, asked: Any, known: Sequence[str]) -> tuple[int, ...]
 
 def _is_z(normal: Float[np.ndarray, "3"]) -> bool:
     return bool(np.hypot(normal[0], normal[1]) < WORLD_AXIS)
-
-
-def _moved(xp: Any, pose: Any, shift: Any, turn: Any) -> Any:
-    """Shift a frame, and turn it about its origin by a rotation vector (Rodrigues), in world axes."""
-    square = turn @ turn
-    small = square < 1e-12  # series there: the root has no derivative at zero
-    angle = xp.sqrt(xp.where(small, 1.0, square))
-    first = xp.where(small, 1.0 - square / 6.0, xp.sin(angle) / angle)
-    second = xp.where(small, 0.5 - square / 24.0, (1.0 - xp.cos(angle)) / angle**2)
-    x, y, z = turn
-    zero = xp.zeros(())
-    cross = xp.stack([xp.stack([zero, -z, y]), xp.stack([z, zero, -x]), xp.stack([-y, x, zero])])
-    rotation = (xp.eye(3) + first * cross + second * (cross @ cross)) @ pose[:3, :3]
-    origin = pose[:3, 3] + shift
-    return xp.concatenate([xp.concatenate([rotation, origin[:, None]], axis=1), pose[3:]])
-
-
-Numbers = Float[Array, " unknowns"] | Float[np.ndarray, " unknowns"]
-"""Changes of the unknowns: radians, and lengths in the unit of the mechanism."""

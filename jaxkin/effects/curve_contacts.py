@@ -101,11 +101,11 @@ def _of_two(joint: Joint, one: Spline, other: Spline, q: Float[np.ndarray, "pose
 
         tree, sag = KDTree(curve), _sag(one) + _sag(other)
         home = _placed_second(second, one.at(0.0), other.at(0.0), along)
-        inside = float(np.mean(_inside(curve, home)) > 0.5)
+        inside = bool(np.mean(_inside(curve, home)) > 0.5)
         for pose in np.flatnonzero(finite):
             here, there = (CurvePoint(*(values[pose] for values in each)) for each in (a, b))
             points = _placed_second(second, here, there, along)
-            wrong = points[_inside(curve, points) != bool(inside)]
+            wrong = points[_inside(curve, points) != inside]
             if len(wrong):
                 depth[pose] = max(0.0, float(tree.query(wrong)[0].max()) - 2 * sag)
         area = float(np.sum(curve[:, 0] * np.roll(curve[:, 1], -1) - curve[:, 1] * np.roll(curve[:, 0], -1)))

@@ -10,7 +10,6 @@ from jaxtyping import Float
 from jaxkin._traced import traced
 from jaxkin.geometry.curves import Curve, CurvePoint, Spline
 
-Points = Float[np.ndarray, "points 2"]
 Pair = Float[np.ndarray, "2"]
 
 LEAST_POINTS = 4

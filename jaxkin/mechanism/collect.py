@@ -12,7 +12,7 @@ from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.linkage.coordinates import Given
 from jaxkin.solve.execution.known_numbers import Outcome
-from jaxkin.solve.status import SEVERITY, Status, closes_before_limits
+from jaxkin.solve.status import SEVERITY, Status, closes_before_limits, of_severity, severity
 from jaxkin.solve.system.from_linkage import Columns
 
 Solution = tuple[Float[Array, "_ _"], Outcome]
@@ -62,7 +62,6 @@ def collect(
     moved: dict[int, Array] = {}
     for (joint, coordinate), value in given.items():
         moved[joint] = moved.get(joint, resting[sources.freedoms[joint]]).at[:, coordinate].set(value)
-    rank = jnp.array([SEVERITY.index(status) for status in Status], jnp.int32)
     worst = jnp.zeros(poses, jnp.int32)
     if finite is not None:
         worst = jnp.where(finite, worst, SEVERITY.index(Status.NONFINITE))
@@ -81,9 +80,9 @@ def collect(
             ]
             rows = [jnp.broadcast_to(row, (poses,)) for row in rows]
             moved[joint] = rows[0][:, None] if len(rows) == 1 else jnp.stack(rows, axis=1)
-        worst = jnp.maximum(worst, rank[found.status[:poses]])
+        worst = jnp.maximum(worst, severity(found.status[:poses]))
         square = square + found.residual_norm[:poses] ** 2
-    status = jnp.array([status.value for status in SEVERITY], jnp.int32)[worst]
+    status = of_severity(worst)
     resting = {freedoms: resting[freedoms] for joint, freedoms in enumerate(sources.freedoms) if joint not in moved}
     moved, resting, residual = nan_where_not_finite((moved, resting, jnp.sqrt(square)), finite)
     return Collected(tuple(map(jnp.asarray, values)), moved, resting, status, residual)

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float
 
 from jaxkin._arguments import text
 from jaxkin._memory import once_for_each
@@ -28,8 +27,6 @@ from jaxkin.topology.structure import structure
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
-
-Values = Float[Array | np.ndarray, "poses *shape"]
 
 OFF_PLANE = 1e-9
 """How far a target of a planar mechanism may leave its plane, over the size of the joints, or in radians: rounding."""
@@ -50,6 +47,11 @@ class Target:
         if self.at is None:
             return f"{self.part} {self.kind}"
         return f"{self.part} ({', '.join(f'{x:g}' for x in self.at)})"
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Shape of its value in one pose."""
+        return {"pose": (4, 4), "point": (3,), "orientation": (3, 3)}[self.kind]
 
 
 def pose(part: str) -> Target:
@@ -187,7 +189,7 @@ def _driven(joint: Joint, target: Target) -> range:
 
 def _coordinates(joint: Joint, target: Target, values: Any, size: float) -> dict[str, Any]:
     """Compute the driven coordinates of the joint of a target, by full names."""
-    shape = {"pose": (4, 4), "point": (3,), "orientation": (3, 3)}[target.kind]
+    shape = target.shape
     xp: Any = jnp if traced(values, joint) else np
     given: Any
     try:

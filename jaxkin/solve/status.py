@@ -94,6 +94,17 @@ SEVERITY = (
 """All statuses from the best to the worst. A pose of a mechanism has the worst of the statuses that its loop
 groups have: a pose that is useless for one of them is useless for the mechanism."""
 
+
+def severity(status: Int[Array, " poses"]) -> Int[Array, " poses"]:
+    """Look up the places of statuses, given by their values, in `SEVERITY`."""
+    return jnp.array([SEVERITY.index(each) for each in Status], jnp.int32)[status]
+
+
+def of_severity(place: Int[Array, " poses"]) -> Int[Array, " poses"]:
+    """Look up the values of the statuses at places in `SEVERITY`."""
+    return jnp.array([each.value for each in SEVERITY], jnp.int32)[place]
+
+
 Scalar = Float[Array, ""] | Float[np.ndarray, ""]
 
 

@@ -17,6 +17,7 @@ from jaxtyping import Int
 
 from jaxkin._arguments import several
 from jaxkin.topology.checks import check_chords, check_connected, check_names, merged_name
+from jaxkin.topology.components import connected
 from jaxkin.topology.describe import describe
 from jaxkin.topology.elements import ElementNode, StructureElement, element_tree, named
 from jaxkin.topology.graph import Circuit, Graph
@@ -197,20 +198,17 @@ def merged_by_couplings(groups: Sequence[LoopGroup], couplings: Sequence[tuple[i
 
     A merged group stands at the place of its first part; groups without loops come last.
     """
-    import networkx as nx  # here, as it takes as long to import as half of JAX
-
     if not couplings:
         return tuple(groups)
-    members = [set(group.joints) for group in groups]
-    ties = nx.Graph()
-    ties.add_nodes_from(("group", number) for number in range(len(groups)))
-    for number, joints in enumerate(couplings):
-        ties.add_node(("coupling", number))
-        for joint in joints:
-            inside = next((("group", k) for k, own in enumerate(members) if joint in own), ("joint", joint))
-            ties.add_edge(("coupling", number), inside)
+    group_of = {joint: ("group", k) for k, group in enumerate(groups) for joint in group.joints}
+    ties = [
+        (("coupling", number), group_of.get(joint, ("joint", joint)))
+        for number, joints in enumerate(couplings)
+        for joint in joints
+    ]
+    alone = [("group", k) for k in range(len(groups))] + [("coupling", k) for k in range(len(couplings))]
     found = []
-    for nodes in nx.connected_components(ties):
+    for nodes in connected(dict.fromkeys([*alone, *(node for _, node in ties)]), ties):
         own = {kind: sorted(k for each, k in nodes if each == kind) for kind in ("group", "coupling", "joint")}
         joints = sorted({joint for k in own["group"] for joint in groups[k].joints} | set(own["joint"]))
         loops = tuple(loop for k in own["group"] for loop in groups[k].loops)

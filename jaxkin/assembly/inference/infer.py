@@ -125,7 +125,7 @@ def infer(
 
     # which parts are fasteners: not rings and sleeves, nor what slides, turns or rolls
     fastening -= {name for each in rolling for name in (each.outer, each.inner)} | known.sleeves | known.closed
-    fastening -= sliding_rods(known, set_in) | hollow_axles(known) | driven | barrels(known, set_in)
+    fastening -= sliding_rods(known, set_in) | hollow_axles(known) | driven | barrels(set_in)
     fastening -= rollers(known, fastening)
     known.take([*squared_hubs(known, fastening), *pressed_on_shoulders(known, fastening)])
     known.take(locked_threads(known, fastening))

@@ -115,7 +115,7 @@ def sliding_rods(known: Known, found: list[Sleeve]) -> set[str]:
     return {each.pin.one.part for each in found if each.pin and _is_shared(known, each)}
 
 
-def barrels(known: Known, found: list[Sleeve]) -> set[str]:
+def barrels(found: list[Sleeve]) -> set[str]:
     """Find the tubes with a sleeve in the end of their hole and something through that: the gland of a cylinder or an
     actuator. A tube is no nut of what is in it."""
     return {each.housing.other.part for each in found if each.pin and _is_flush(each.housing)}

@@ -51,12 +51,15 @@ def aims_of(mechanism: Mechanism, targets: Mapping[Any, Any], weights: Mapping[A
         if key not in targets:
             raise ValueError(f"weights: {key!r} is no target; there are {', '.join(map(repr, targets))}")
     aims = tuple(_aim(mechanism, key, values, weights.get(key, 1.0)) for key, values in targets.items())
-    if len({len(aim.values) if isinstance(aim, JointAim) else _poses(aim) for aim in aims}) != 1:
+    if len({poses_of(aim) for aim in aims}) != 1:
         raise ValueError("targets must have the same number of poses, and there must be at least one target")
     return aims
 
 
-def _poses(aim: PartAim) -> int:
+def poses_of(aim: Aim) -> int:
+    """Count the poses of an aim."""
+    if isinstance(aim, JointAim):
+        return len(aim.values)
     return next(len(each) for each in (aim.places, aim.turns) if each is not None)
 
 
@@ -73,7 +76,7 @@ def _aim(mechanism: Mechanism, key: str | Target, values: Any, weight: Weight) -
     if key.part not in mechanism.parts or key.part in mechanism.fixed:
         moving = [part for part in mechanism.parts if part not in mechanism.fixed]
         raise ValueError(f"{key.joint}: there is no part {key.part!r} that moves{nearest(key.part, moving)}")
-    shape = {"pose": (4, 4), "point": (3,), "orientation": (3, 3)}[key.kind]
+    shape = key.shape
     if given.ndim != len(shape) + 1 or given.shape[1:] != shape:
         said = ", ".join(map(str, shape))
         raise ValueError(f"{key.joint}: expected an array of shape (poses, {said}), got shape {np.shape(values)}")

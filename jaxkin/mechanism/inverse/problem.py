@@ -18,7 +18,7 @@ from jaxkin.linkage.closure_equations import closure_residual
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.joint_motion import part_transforms
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.mechanism.inverse.aims import Aim, JointAim, PartAim
+from jaxkin.mechanism.inverse.aims import Aim, JointAim, PartAim, poses_of
 from jaxkin.mechanism.inverse.bounded import Bounds
 from jaxkin.mechanism.inverse.step import Equations
 from jaxkin.mechanism.targets import extent
@@ -48,9 +48,7 @@ class Problem:
         self.inputs = np.zeros(len(self.places), bool)
         self.rest = np.zeros(len(self.places))
         self.parts = tuple(dict.fromkeys(aim.part for aim in aims if isinstance(aim, PartAim)))
-        first = aims[0]
-        given = first.values if isinstance(first, JointAim) else first.turns if first.places is None else first.places
-        self.poses = 0 if given is None else len(given)
+        self.poses = poses_of(aims[0])
 
     def column(self, name: str) -> int:
         """Look up the column of a coordinate by name; ValueError where there is none."""
