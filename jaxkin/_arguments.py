@@ -85,7 +85,16 @@ def numbers(given: Any, what: str, expected: str = "numbers") -> Any:
 def one_number(given: Any, what: str, expected: str = "one finite number") -> Any:
     """Return one finite number as an array without axes, else raise ValueError; a traced one is not looked at."""
     found = numbers(given, what, expected)
-    if isinstance(given, bool) or found.shape != () or not (traced(found) or np.isfinite(found)):
+    if isinstance(given, bool | np.bool_) or found.shape != () or not (traced(found) or np.isfinite(found)):
+        raise ValueError(f"{what} must be {expected}, got {given!r}")
+    return found
+
+
+def positive_number(given: Any, what: str, expected: str = "one positive number") -> Any:
+    """Return one finite number above zero as an array without axes, else raise ValueError; a traced one is not looked
+    at."""
+    found = one_number(given, what, expected)
+    if not (traced(found) or found > 0):
         raise ValueError(f"{what} must be {expected}, got {given!r}")
     return found
 

@@ -23,7 +23,7 @@ from jaxkin.contacts.detect import find_contacts
 from jaxkin.contacts.tolerance import Tolerance
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.units import METRES, unit_name
-from jaxkin.joints.joint import Joint
+from jaxkin.joints.joint import Joint, check_joints
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
@@ -136,13 +136,19 @@ class Assembly:
                 clearance=clearance,
             )
         said = Said(
-            _in_full(fixed, self.parts, "fixed"), _groups(rigid, self.parts), ignore, joints, combine, align, clearance
+            _in_full(fixed, self.parts, "fixed"),
+            _groups(rigid, self.parts),
+            ignore,
+            check_joints(joints),
+            combine,
+            align,
+            clearance,
         )
         if infer and contacts is None and self.exported is not None:
             return from_export(self, self.exported, said)
         contacts = self.contacts() if contacts is None else contacts
         check_said(self.names, said)
-        plain = not (rigid or ignore or joints) and combine and infer and align is None and clearance is None
+        plain = not (rigid or ignore or said.joints) and combine and infer and align is None and clearance is None
         made = self._made if plain and contacts is self._found.get(_DEFAULT_TOLERANCES) else {}
         if said.fixed not in made:
             made[said.fixed] = (inferred if infer and combine else from_words)(self, contacts, said)
@@ -167,7 +173,7 @@ class Assembly:
         said = Said(
             [part for part in _in_full(fixed, self.parts, "fixed") if part not in left],
             [group for group in groups if len(group) > 1],
-            joints=[each for each in joints if left.isdisjoint(each.parts)],
+            joints=[each for each in check_joints(joints) if left.isdisjoint(each.parts)],
             align=align,
         )
         kept = self.without(left)

@@ -21,7 +21,7 @@ from jaxkin.joints.combine import LOWER_PAIRS
 from jaxkin.joints.evidence import BY_HAND, Bond, EvidenceKind
 from jaxkin.joints.file_noise import noise_of
 from jaxkin.joints.from_contacts import FoundJoints, joints_from_contacts
-from jaxkin.joints.joint import Joint, check_joints, joint
+from jaxkin.joints.joint import Joint, joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.regularise import Noise
 from jaxkin.linkage.linkage import Linkage
@@ -66,7 +66,6 @@ class Said(NamedTuple):
 
 def check_said(names: Sequence[str], said: Said) -> None:
     """Refuse words that name no parts, or that are no such groups: ValueError."""
-    check_joints(said.joints)
     check_pairs(said.ignore)
     check_names(names, [(given.name, *given.parts) for given in said.joints], said.fixed)
     bodies(names, said.fixed, said.rigid)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import importlib.metadata
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import typer
 
-from jaxkin import __version__
 from jaxkin.cli import run
 from jaxkin.cli.arguments import (
     Drawing,
@@ -49,7 +49,7 @@ app = typer.Typer(
 @app.callback(invoke_without_command=True)
 def before_commands(version: Version = False) -> None:
     if version:
-        typer.echo(f"jaxkin {__version__}")
+        typer.echo(f"jaxkin {importlib.metadata.version('jaxkin')}")
         raise typer.Exit
 
 

@@ -78,7 +78,10 @@ def on_plane(face1: Face, face2: Face, displacements: Displacements) -> Gaps:
         return np.full(displacements.shape[2], -np.inf)
     shift = axes @ (_points(displacements, origin) - plane.point[:, None])
     turn = axes @ np.einsum("ijn,j->in", displacements[:, :3], along)
-    return gaps_between_hulls(one, other, PlaneMotion(turn / np.linalg.norm(turn, axis=0), shift))
+    size = np.linalg.norm(turn, axis=0)
+    # a ball, whose hull is a point, may be turned by a quarter, so that its direction stands on the plane
+    turn = np.where(size > 0, turn, [[1.0], [0.0]]) / np.where(size > 0, size, 1.0)
+    return gaps_between_hulls(one, other, PlaneMotion(turn, shift))
 
 
 def _lying(face: Face, normal: Vector) -> tuple[Vector, Vector, Hull | None]:

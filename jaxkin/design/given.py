@@ -12,7 +12,7 @@ from typing import Any
 import jax.numpy as jnp
 import numpy as np
 
-from jaxkin._arguments import numbers, one_number, several
+from jaxkin._arguments import numbers, one_number, positive_number, several
 from jaxkin._names import nearest
 from jaxkin._traced import traced
 
@@ -30,12 +30,8 @@ def number(given: Any, what: str, least: float = -np.inf, most: float = np.inf, 
 
 def positive(given: Any, what: str) -> Any:
     """Return a number above zero."""
-    found = one_number(given, what)
-    if traced(found):
-        return found
-    if not found > 0:
-        raise ValueError(f"{what} must be positive, got {given!r}")
-    return float(found)
+    found = positive_number(given, what)
+    return found if traced(found) else float(found)
 
 
 def angle(given: Any, what: str, most: float) -> Any:

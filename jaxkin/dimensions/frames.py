@@ -9,7 +9,7 @@ from typing import Any
 import jax.numpy as jnp
 import numpy as np
 
-from jaxkin._arguments import by_name
+from jaxkin._arguments import by_name, numbers
 from jaxkin._names import nearest
 from jaxkin._traced import traced
 from jaxkin.geometry.patches import Patch
@@ -46,10 +46,10 @@ def with_points(linkage: Linkage, points: Mapping[Any, Any]) -> Linkage:
             linkage = _with_profile(linkage, place, *found, point)
             continue
         if not traced(point):
-            given = point
-            point = np.asarray(point, float)
+            given, expected = point, "three finite numbers (x, y, z)"
+            point = numbers(given, f"the point of {place!r}", expected)
             if point.shape != (3,) or not np.all(np.isfinite(point)):
-                raise ValueError(f"the point of {place!r} must be three finite numbers (x, y, z), got {given!r}")
+                raise ValueError(f"the point of {place!r} must be {expected}, got {given!r}")
         linkage = _placed(linkage, place, point, moved)
     return linkage
 
@@ -140,7 +140,7 @@ def _pose(place: Place, pose):
     """Check that numbers are a rigid 4x4 pose (ValueError); traced ones are not checked."""
     if traced(pose):
         return pose
-    array = np.asarray(pose, float)
+    array = numbers(pose, f"the frame of {place!r}", "a 4x4 pose of finite numbers")
     if array.shape != (4, 4) or not np.all(np.isfinite(array)):
         raise ValueError(f"the frame of {place!r} must be a 4x4 pose of finite numbers, got shape {array.shape}")
     if not is_rigid(array):

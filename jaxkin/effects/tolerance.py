@@ -8,6 +8,8 @@ from typing import Any, Literal
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin._arguments import positive_number
+
 USUAL_LIMIT = 3.0
 """Limit of a normal deviation in standard deviations where none is said: 99.73 % of parts are within it."""
 
@@ -67,14 +69,5 @@ def named(key: Any) -> str:
 
 
 def _positive(what: str, given: Any) -> float:
-    try:
-        if isinstance(given, str | bool):
-            raise TypeError
-        number = float(given)
-        if not (np.isfinite(number) and number > 0):
-            raise ValueError
-    except (TypeError, ValueError):
-        raise ValueError(
-            f"{what} must be a positive number, as 0.05 for plus and minus 0.05, or jk.sigma(0.02), got {given!r}"
-        ) from None
-    return number
+    """Check a tolerance or what it is made of; ValueError for what is no positive number."""
+    return float(positive_number(given, what, "a positive number, as 0.05 for plus and minus 0.05, or jk.sigma(0.02)"))

@@ -148,7 +148,7 @@ def workspace(
     loops cannot follow, for loops that are open in the assembled pose, and inside `jit`, `vmap` and `grad`.
     """
     check_mechanism(mechanism, "workspaces")
-    if traced((mechanism, point)):
+    if traced((mechanism, ranges, point)):
         raise ValueError("a workspace is mapped on the host: call workspace outside of jit, vmap and grad")
     linkage, options = mechanism.linkage, options_with(options)
     grid = _grid(ranges)

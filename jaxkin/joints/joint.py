@@ -163,13 +163,16 @@ def shifted(given: Joint, q: Float[np.ndarray, " freedoms"]) -> Joint:
     return replace(given, limits=limits)
 
 
-def check_joints(given: Any) -> None:
-    """Refuse what is no list of joints: a ValueError says what was given."""
+def check_joints(given: Any) -> tuple[Joint, ...]:
+    """Return the joints of a list of joints; ValueError says what was given in place of one."""
+    joints = ()
     if isinstance(given, Joint):
         wrong = f"the joint {given.name!r} alone"
     elif not isinstance(given, Iterable):
         wrong = repr(given)
     else:
-        wrong = next((f"{each!r} among them" for each in given if not isinstance(each, Joint)), None)
+        joints = tuple(given)
+        wrong = next((f"{each!r} among them" for each in joints if not isinstance(each, Joint)), None)
     if wrong:
         raise ValueError(f"joints must be a list of joints, such as [jk.revolute(...)], got {wrong}")
+    return joints

@@ -15,6 +15,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin._arguments import several
 from jaxkin._traced import traced
 from jaxkin.geometry.curves import ROUNDING
 from jaxkin.geometry.pose import inverse
@@ -50,8 +51,10 @@ def surface_points(
     and for the ends of a closed surface that do not meet.
     """
     pair = check_closed("surface_points", closed)
-    grid = []
-    for label, ends, count, joined in zip("uv", (u, v), samples, pair, strict=True):
+    grid, counts = [], several(samples, "surface_points: samples", "two whole numbers", "(40, 40)")
+    if len(counts) != 2:
+        raise ValueError(f"surface_points: samples must be two whole numbers, of u and v, got {samples!r}")
+    for label, ends, count, joined in zip("uv", (u, v), counts, pair, strict=True):
         if isinstance(count, bool) or not isinstance(count, int | np.integer) or count < LEAST_POINTS:
             raise ValueError(
                 f"surface_points: samples must be two whole numbers of {LEAST_POINTS} or more, got {samples}"

@@ -81,7 +81,7 @@ class Mechanism:
 
         Raises ValueError for names that repeat or are not there, parts that hang on nothing, and a wrong `align`.
         """
-        check_joints(joints)
+        joints = check_joints(joints)
         parts = list(dict.fromkeys(part for joint in joints for part in joint.parts))
         found = structure(parts, [(joint.name, *joint.parts) for joint in joints], fixed)
         linkage, notes = aligned(coupled(Linkage.of(joints, found), couplings), asked_noise(align), check_unit(unit))

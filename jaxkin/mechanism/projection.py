@@ -24,8 +24,8 @@ from jaxkin.mechanism.sweep import closure_tolerance, padded, warn_of_float32
 from jaxkin.mobility.infeasible_drive import dead_point
 from jaxkin.solve.correctors.nearest_pose import NearestPoses
 from jaxkin.solve.execution.programs import project as nearest_poses
-from jaxkin.solve.options import SolverOptions
-from jaxkin.solve.status import SEVERITY, Status, in_doubt
+from jaxkin.solve.options import SolverOptions, options_with
+from jaxkin.solve.status import SEVERITY, Status, in_doubt, of_severity, severity
 from jaxkin.solve.system.from_linkage import Columns, group_joints, group_system
 
 if TYPE_CHECKING:
@@ -42,8 +42,8 @@ class Projection:
     """Root of the sum of squares, over all coordinates of joints in loops, of how far they were moved, with their
     weights: radians, and lengths over the characteristic length of the loops."""
     nearest: Bool[Array, " poses"]
-    """Which poses are nearest: closed, and no closed pose beside them is nearer. The others are closed where their
-    status says so, but no more than near."""
+    """Which poses are nearest: closed, and no closed pose beside them is nearer. The others may be closed, too, as
+    their status says, but another closed pose beside them may be nearer."""
 
     def __str__(self) -> str:
         poses, closed = len(self.motion), np.asarray(self.motion.on_branch)
@@ -91,7 +91,7 @@ def project(
     that are not positive.
     """
     check_mechanism(mechanism, "nearest poses")
-    linkage, options = mechanism.linkage, options or SolverOptions()
+    linkage, options = mechanism.linkage, options_with(options)
     warn_of_float32()
     rows = _given(mechanism, given)
     held = coordinates(linkage, hold) if (hold := several(hold, "hold", "coordinates")) else {}
@@ -141,17 +141,16 @@ def _collect(
     """
     poses = len(finite)
     moved = {(joint, k): row for joint, rows in enumerate(given) for k, row in enumerate(rows.T)}
-    rank = jnp.array([SEVERITY.index(status) for status in Status], jnp.int32)
     worst = jnp.where(finite, 0, SEVERITY.index(Status.NONFINITE))
     square = residual = jnp.zeros(poses, given[0].dtype)
     best = finite
     for (columns, resting), each in zip(solved, found, strict=True):
         moved |= {place: row[:poses] for place, row in zip(columns, each.displacements, strict=True)}
         moved |= dict.fromkeys(resting, jnp.zeros(poses, given[0].dtype))  # along the normal of a planar group
-        worst = jnp.maximum(worst, rank[each.status[:poses]])
+        worst = jnp.maximum(worst, severity(each.status[:poses]))
         square, residual = square + each.square[:poses], residual + each.residual_norm[:poses] ** 2
         best = best & each.nearest[:poses]
-    status = jnp.array([each.value for each in SEVERITY], jnp.int32)[worst]
+    status = of_severity(worst)
     displacements = tuple(
         jnp.stack([moved[joint, k] for k in range(rows.shape[1])], axis=1) if rows.shape[1] else rows
         for joint, rows in enumerate(given)

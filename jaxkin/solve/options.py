@@ -130,10 +130,10 @@ def _positive_number(tolerance: Any) -> float | None:
         )
     try:
         given = np.asarray(tolerance, float)
-        if given.shape or not given > 0:
+        if isinstance(tolerance, str | bool) or given.shape or not 0 < given < np.inf:
             raise ValueError
     except (TypeError, ValueError):
-        raise ValueError(f"tolerance must be a positive number such as 1e-9, got {tolerance!r}") from None
+        raise ValueError(f"tolerance must be a positive finite number such as 1e-9, got {tolerance!r}") from None
     return float(given)
 
 

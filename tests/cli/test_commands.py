@@ -1,6 +1,5 @@
 """The commands on the assemblies that come with the package, and on input that is wrong."""
 
-import importlib.metadata
 import os
 import subprocess
 import sys
@@ -43,11 +42,6 @@ def test_help_and_errors_of_arguments_come_without_jax(arguments):
     program = "import sys; from jaxkin.cli import main\ntry:\n main()\nfinally:\n sys.exit('jax' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", program, *arguments], capture_output=True, text=True, check=False)
     assert done.returncode == 0 and ("Usage" in done.stdout + done.stderr), done.stderr
-
-
-def test_the_version_is_that_of_the_package():
-    done = invoke("--version")
-    assert done.exit_code == 0 and done.output == f"jaxkin {importlib.metadata.version('jaxkin')}\n"
 
 
 @pytest.mark.long

@@ -5,7 +5,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
+import jaxkin as jk
+from jaxkin.cli.app import app
 from jaxkin.cli.options import Options, parse_drives, parse_parts
 from jaxkin.io.ranges import Range, in_radians
 from jaxkin.joints.pairs import cylindrical, revolute
@@ -115,3 +118,8 @@ def test_the_help_says_what_each_effect_is():
 
     (option,) = Effects.__metadata__
     assert [name for name in EFFECTS if f"{name} (" not in option.help] == []
+
+
+def test_the_version_is_that_of_the_package():
+    done = CliRunner().invoke(app, ["--version"])
+    assert done.exit_code == 0 and done.output == f"jaxkin {jk.__version__}\n"

@@ -201,7 +201,7 @@ def test_bad_objectives(motion):
         design.function("Q", TURN)(motion)
     with pytest.raises(ValueError, match="'A' is on neither of the links"):
         design.transmission_angle(motion, "C", ("A", "D"))
-    with pytest.raises(ValueError, match="must be positive"):
+    with pytest.raises(ValueError, match="must be one positive number"):
         design.stroke_of("D", -1.0)
     with pytest.raises(ValueError, match="at least two poses"):
         design.dwell("D", [1])

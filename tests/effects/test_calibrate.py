@@ -208,6 +208,8 @@ def test_units_change_nothing_and_three_poses_leave_no_freedom():
 
 
 POINT = jk.point("coupler", (60.0, 25.0, 0.0))
+TRANSPOSED = np.tile(np.eye(4), (24, 1, 1)) + np.eye(4)[[3]].T * (1.0, 2.0, 0.0, 0.0)
+"""Poses whose translation is in the last row."""
 
 
 @pytest.mark.parametrize(
@@ -230,6 +232,9 @@ POINT = jk.point("coupler", (60.0, 25.0, 0.0))
         ({POINT: np.zeros((24, 3))}, {"markers": POINT}, "must be a list of measured points"),
         ({jk.pose("ground"): np.zeros((24, 4, 4))}, {"lengths": [CRANK]}, "'ground' is fixed"),
         ({jk.orientation("rocker"): np.ones((24, 3, 3))}, {"lengths": [CRANK]}, "orthonormal and right-handed"),
+        ({jk.pose("rocker"): TRANSPOSED, "D": np.zeros(24)}, {"lengths": [CRANK]}, "are they transposed"),
+        ({"D": np.zeros(24)}, {"lengths": [CRANK], "sigma": "2"}, "sigma must be a positive number"),
+        ({"D": np.zeros(24)}, {"lengths": [CRANK], "sigma": True}, "sigma must be a positive number"),
     ],
 )
 def test_what_makes_no_sense_is_refused(measured, more, said):

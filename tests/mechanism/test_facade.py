@@ -52,3 +52,10 @@ def test_joints_that_disagree_do_so_after_a_change(change):
         jk.Status.CLOSED,
         jk.Status.MISFIT,
     }
+
+
+def test_joints_may_come_one_by_one():
+    """A generator gives its joints once."""
+    joints = planar_fourbar().all_joints
+    again = jk.Mechanism.build(fixed=["ground"], joints=(joint for joint in joints))
+    assert [joint.name for joint in again.all_joints] == [joint.name for joint in joints]

@@ -10,7 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Bool, Float
 
-from jaxkin._arguments import by_name, check_mechanism, several, whole_number, yes_or_no
+from jaxkin._arguments import by_name, check_mechanism, one_number, several, whole_number, yes_or_no
 from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import coordinates
 from jaxkin.mechanism.inverse.aims import aims_of
@@ -122,7 +122,9 @@ def inverse(
         problem.inputs[problem.column(name)] = True
     for name, value in by_name(rest or {}, "places of rest", "{'A': 0.1}").items():
         column = problem.column(name)
-        problem.rest[column] = float(value) / problem.units[column]
+        if not problem.inputs[column]:
+            raise ValueError(f"rest names {name!r}, which is no input; the inputs are {', '.join(chosen)}")
+        problem.rest[column] = float(one_number(value, f"the place of rest of {name!r}")) / problem.units[column]
     bounds = problem.limits if limits else problem.unlimited
     found = [from_assembled(problem, bounds, iterations)]
     stopped = _at_limits(found[0].x, bounds) & problem.turns

@@ -23,7 +23,12 @@ from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.solve.closure.closure import Geometry, closure, free_jacobian, scaled_geometry
 from jaxkin.solve.closure.joint_coordinates import as_state, ball_rotations, joint_coordinates
-from jaxkin.solve.correctors.levenberg_marquardt import damping_floor, levenberg_marquardt, select_poses
+from jaxkin.solve.correctors.levenberg_marquardt import (
+    MAX_DAMPED_STEP,
+    damping_floor,
+    levenberg_marquardt,
+    select_poses,
+)
 from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.linear.least_norm import solve_least_norm, solve_least_norm_refined
 from jaxkin.solve.lockstep import any_in_lockstep
@@ -38,9 +43,6 @@ MAX_STEPS = 40
 
 CLOSED_SHARE = 0.1
 """Residual of a settled pose over the tolerance, at most: its last step changes nothing that could be seen in it."""
-
-MAX_STEP = 0.5
-"""Longest step, in radians or characteristic lengths, as of the damped corrector."""
 
 SETTLED = 1e-9
 """Length of a step, in radians or characteristic lengths, after which a closed pose counts as the nearest: the error
@@ -122,7 +124,8 @@ def _search(
         length = jnp.sqrt(jnp.sum(delta * delta, axis=0))
         closes = evaluation.residual_norm <= CLOSED_SHARE * tolerance.max_residual
         settled = at.settled | (closes & (length <= SETTLED))
-        delta = delta * jnp.where(settled, 0.0, jnp.minimum(1.0, MAX_STEP / jnp.maximum(length, MAX_STEP)))
+        shorter = MAX_DAMPED_STEP / jnp.maximum(length, MAX_DAMPED_STEP)
+        delta = delta * jnp.where(settled, 0.0, shorter)
         norm = jnp.where(at.settled, at.residual_norm, evaluation.residual_norm)
         return _Iterate(at.count + 1, retract(system, at.state, delta), norm, settled)
 
@@ -167,7 +170,7 @@ def _rotation_vector(turn: Float[Array, "4 poses"]) -> Float[Array, "3 poses"]:
     square = jnp.sum(turn[1:] ** 2, axis=0)
     small = square < 1e-12
     sine = jnp.sqrt(jnp.where(small, 1.0, square))  # sqrt has no derivative at zero: the other branch is the series
-    factor = jnp.where(small, 2.0 - square / 3.0, 2.0 * jnp.arctan2(sine, jnp.where(small, 1.0, turn[0])) / sine)
+    factor = jnp.where(small, 2.0 + square / 3.0, 2.0 * jnp.arctan2(sine, jnp.where(small, 1.0, turn[0])) / sine)
     return factor * turn[1:]
 
 
