@@ -17,6 +17,7 @@ from jaxkin._traced import traced
 from jaxkin.design import given
 from jaxkin.dimensions import lengths
 from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.root import root
 from jaxkin.linkage.coordinates import coordinate
 
 if TYPE_CHECKING:
@@ -92,7 +93,7 @@ def transmission_angle(motion: Motion, joint: str, ends: tuple[str, str]) -> Flo
                     f"{end!r} another point of its axis, or name another joint of the same link"
                 )
             links[number] = across
-    cross = jnp.linalg.norm(jnp.cross(*links) + 1e-300, axis=-1)
+    cross = root(jnp.sum(jnp.cross(*links) ** 2, axis=-1))  # zero where the links are in line
     return jnp.arctan2(cross, jnp.sum(links[0] * links[1], axis=-1))
 
 

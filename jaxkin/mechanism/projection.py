@@ -16,6 +16,7 @@ from jaxtyping import Array, Bool, Float, Int
 from jaxkin._arguments import by_name, check_mechanism, several
 from jaxkin._names import nearest
 from jaxkin._traced import traced
+from jaxkin.geometry.root import root
 from jaxkin.linkage.coordinates import coordinate, coordinates
 from jaxkin.mechanism.collect import nan_where_not_finite
 from jaxkin.mechanism.joint_limits import with_limited
@@ -155,15 +156,9 @@ def _collect(
         jnp.stack([moved[joint, k] for k in range(rows.shape[1])], axis=1) if rows.shape[1] else rows
         for joint, rows in enumerate(given)
     )
-    norms = jnp.sqrt(residual), _root(square)
+    norms = jnp.sqrt(residual), root(square)
     displacements, (residual, distance) = nan_where_not_finite((displacements, norms), finite)
     return displacements, status, residual, distance, best
-
-
-def _root(square: Float[Array, " poses"]) -> Float[Array, " poses"]:
-    """Compute the square root, with a derivative of zero at zero."""
-    moved = square > 0
-    return jnp.where(moved, jnp.sqrt(jnp.where(moved, square, 1.0)), 0.0)
 
 
 def _first(mechanism: Mechanism) -> tuple[str, ...]:
