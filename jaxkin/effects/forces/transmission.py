@@ -20,6 +20,7 @@ from jaxkin.effects.forces.wrenches import nan_unless_closed
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.effects.rates import velocities
 from jaxkin.geometry.movements import is_length
+from jaxkin.geometry.root import root
 from jaxkin.geometry.units import METRES
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.mechanism.motion import Motion
@@ -122,9 +123,10 @@ def transmission(motion: Motion, output: str, *, joint: str | None = None) -> Tr
     velocity = velocity_at(turn, at.scale.arm(found.points[through].T)).T
     velocity = velocity * (1.0 if is_length(own.coordinates[index]) else at.scale.size * METRES[mechanism.unit])
     along = jnp.abs(jnp.sum(push * velocity, axis=1))
+    across = root(jnp.sum(jnp.cross(push, velocity) ** 2, axis=1))
     square = jnp.sum(push**2, axis=1) * jnp.sum(velocity**2, axis=1)
     passes = motion.closed & (square > PASSES**2)
-    sine = along / jnp.sqrt(jnp.where(passes, square, 1.0))
     ratio = nan_unless_closed(motion, speeds.displacements[number][:, index])
-    angle = jnp.where(passes, jnp.arcsin(jnp.minimum(sine, 1.0)), jnp.nan)
+    # the arc sine of a right angle has no derivative, and half of its digits
+    angle = jnp.where(passes, jnp.arctan2(along, jnp.where(passes, across, 1.0)), jnp.nan)
     return Transmission(name, full, through, ratio, -1.0 / force, angle)

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import jax
 import numpy as np
 import pytest
 
@@ -62,6 +63,32 @@ def test_the_angle_where_the_output_rests():
     angle = np.arccos((side**2 + rocker**2 - ground**2) / (2 * side * rocker))
     np.testing.assert_allclose(found.ratio, 0.0, atol=1e-10)
     np.testing.assert_allclose(found.angle, min(angle, np.pi - angle), rtol=1e-7)
+
+
+def test_a_right_angle_has_all_its_digits_and_finite_derivatives():
+    """Coupler and rocker of (1, 3), (4, 3), (4, 0) are at right angles; beside that pose cos(angle) follows from the
+    law of cosines."""
+    z = (0, 0, 1)
+    joints = [
+        jk.revolute("A", "ground", "crank", point=(0, 0, 0), axis=z),
+        jk.revolute("B", "crank", "coupler", point=(1, 3, 0), axis=z),
+        jk.revolute("C", "coupler", "rocker", point=(4, 3, 0), axis=z),
+        jk.revolute("D", "ground", "rocker", point=(4, 0, 0), axis=z),
+    ]
+    mechanism = jk.Mechanism.build(fixed=["ground"], joints=joints)
+
+    def angles(inputs):
+        return jk.transmission(mechanism.sweep({"A": inputs}), "D").angle
+
+    inputs = np.array([0.0, 0.1])
+    diagonal = 26 - 8 * np.sqrt(10) * np.cos(np.arctan2(3, 1) + inputs)  # square of the distance of B from D
+    expected = np.arccos(np.abs(18 - diagonal) / 18)
+    found, slopes = jax.jvp(angles, (inputs,), (np.ones(2),))
+    np.testing.assert_allclose(found, expected, rtol=1e-14)  # the arc sine left 1.6e-8 of the first
+    beside = 8 * np.sqrt(10) * np.sin(np.arctan2(3, 1) + 0.1)  # the rate of the square
+    np.testing.assert_allclose(slopes[1], -beside / (18 * np.sin(expected[1])), rtol=1e-12)
+    # at the right angle itself the acute angle has a slope to either side: +-24 / 18, or zero between them
+    assert abs(slopes[0]) <= 24 / 18 + 1e-12
 
 
 def test_what_makes_no_sense_is_refused():
