@@ -12,6 +12,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from jaxkin.geometry import root as safe_root
 from jaxkin.geometry import trig
 
 Number = Float[Array | np.ndarray, "*#poses"] | float
@@ -37,8 +38,7 @@ def angle(sin: Number, cos: Number) -> Number:
 
 def root(square: Number) -> Number:
     """Compute the square root of positive numbers, and zero with zero derivative of all others."""
-    xp, positive = namespace(square), square > 0
-    return xp.where(positive, xp.sqrt(xp.where(positive, square, 1.0)), 0.0)
+    return np.sqrt(np.where(square > 0, square, 0.0)) if namespace(square) is np else safe_root.root(square)
 
 
 def ratio(part: Number, whole: Number) -> Number:
