@@ -68,19 +68,25 @@ def screw_axes(velocities: Rates, part: str) -> ScrewAxes:
     """
     if not isinstance(velocities, Rates):
         raise ValueError(f"screw axes are those of jk.velocities(motion, rates), got {type(velocities).__name__}")
-    omega = velocities.angular(part)
-    place, rates = velocities.motion.transforms[part], velocities.transforms[part]
-    rotation, shift = place[:, :3, :3], place[:, :3, 3]
-    at_origin = rates[:, :3, 3] - jnp.cross(omega, shift)
-    square = jnp.sum(omega**2, axis=1, keepdims=True)
-    turns = square > _rounding(velocities)[:, None] ** 2
-    square = jnp.where(turns, square, jnp.nan)
+    omega, place = velocities.angular(part), velocities.motion.transforms[part]
+    turns = jnp.sum(omega**2, axis=1, keepdims=True) > _rounding(velocities)[:, None] ** 2
+    # poses without an axis are zeros here, since NaN would spoil the derivatives of all poses, and NaN at the end
+    omega, shift, velocity = (
+        jnp.where(turns, rows, 0.0) for rows in (omega, place[:, :3, 3], velocities.transforms[part][:, :3, 3])
+    )
+    rotation = jnp.where(turns[..., None], place[:, :3, :3], 0.0)
+    at_origin = velocity - jnp.cross(omega, shift)
+    square = jnp.where(turns, jnp.sum(omega**2, axis=1, keepdims=True), 1.0)
     point = jnp.cross(omega, at_origin) / square
     moving = jnp.einsum("pji,pj->pi", rotation, point - shift)
     speed = jnp.sqrt(square)
-    pitch = jnp.sum(omega * at_origin, axis=1) / square[:, 0]
+    pitch = jnp.sum(omega * at_origin, axis=1, keepdims=True) / square
+    direction, point, moving, pitch = (
+        jnp.where(turns, rows, jnp.nan) for rows in (omega / speed, point, moving, pitch)
+    )
     angular_speed = jnp.where(velocities.closed, jnp.where(turns, speed, 0.0)[:, 0], jnp.nan)
-    return ScrewAxes(omega / speed, point, moving, pitch, angular_speed, part, velocities.motion.mechanism.unit)
+    unit = velocities.motion.mechanism.unit
+    return ScrewAxes(direction, point, moving, pitch[:, 0], angular_speed, part, unit)
 
 
 def _rounding(velocities: Rates) -> Float[Array, " poses"]:

@@ -8,7 +8,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import lax
-from jaxtyping import Array, Float
+from jaxtyping import Array, Bool, Float
 
 from jaxkin._traced import inside_trace, traced
 from jaxkin.geometry.chains import coordinate_ranges
@@ -61,15 +61,26 @@ def moving_parts(
 ) -> dict[str, Rigid]:
     """Compute the displacements of all parts that are not fixed along the tree from the fixed parts.
 
-    P_child = P_parent J, or P_parent J^-1 where the tree passes the joint from part 2 to part 1.
+    P_child = P_parent J, or P_parent J^-1 where the tree passes the joint from part 2 to part 1. Where a joint up to a
+    part has no finite displacement, that of the part is NaN, with derivatives of zero.
     """
     found: dict[str, Rigid] = {}
+    known: dict[str, Bool[Array, " poses"]] = {}
     for part, parent, joint, sign in structure.tree:
-        moved = joint_motion(joints[joint], displacements[joint])
+        q, finite = _numbers_of(displacements[joint])
+        moved = joint_motion(joints[joint], q)
         moved = moved if sign > 0 else inverse(moved)
         # without this barrier XLA computes the whole chain anew for every child part, and rounds it otherwise
         found[part] = lax.optimization_barrier(product(found[parent], moved) if parent in found else moved)
-    return found
+        known[part] = known[parent] & finite if parent in known else finite
+    return {part: jnp.where(known[part], place, jnp.nan) for part, place in found.items()}
+
+
+def _numbers_of(q: Float[Array, "poses _"]) -> tuple[Float[Array, "poses _"], Bool[Array, " poses"]]:
+    """Put zeros in place of the displacements of poses that are not finite, and tell which are: what is computed from
+    NaN, and left out afterwards, would make NaN of the derivatives of all poses."""
+    finite = jnp.all(jnp.isfinite(q), axis=1)
+    return jnp.where(finite[:, None], q, 0.0), finite
 
 
 def point_path(
@@ -82,10 +93,12 @@ def point_path(
     """
     hangs = {part: (parent, joint, sign) for part, parent, joint, sign in linkage.structure.tree}
     here, poses = point[:, None], displacements[0].shape[0]
+    known = jnp.ones(poses, bool)
     while part in hangs:
         part, joint, sign = hangs[part]
-        here = _displace_by_joint(linkage.joints[joint], jnp.asarray(displacements[joint]), here, sign)
-    return jnp.broadcast_to(here, (3, poses)).T
+        q, finite = _numbers_of(jnp.asarray(displacements[joint]))
+        here, known = _displace_by_joint(linkage.joints[joint], q, here, sign), known & finite
+    return jnp.where(known, here, jnp.nan).T
 
 
 def _displace_by_joint(joint: Joint, q: Float[Array, "poses _"], point: Float[Array, "3 #poses"], sign: int) -> Array:

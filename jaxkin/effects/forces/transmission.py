@@ -111,16 +111,18 @@ def transmission(motion: Motion, output: str, *, joint: str | None = None) -> Tr
     load = joint_load(full, 1.0)
     force = drive_forces(motion, applied=load).forces[name]
     found = reactions(motion, applied=load)
-    push = found.forces[through]
+    # poses that are not closed have zeros here, since NaN would spoil the derivatives of all poses, and NaN at the end
+    closed = motion.closed[:, None]
+    push, point = (jnp.where(closed, rows[through], 0.0) for rows in (found.forces, found.points))
     if (normal := mechanism.linkage.normal([number], decoupled=True)) is not None:
         # links lie side by side, and what that puts along their pins is shared by stiffness, and moves nothing
-        normal = jnp.einsum("pij,j->pi", motion.transforms[part][:, :3, :3], normal)
+        normal = jnp.einsum("pij,j->pi", jnp.where(closed[..., None], motion.transforms[part], 0.0)[:, :3, :3], normal)
         push = push - jnp.sum(push * normal, axis=1, keepdims=True) * normal
     # the velocity of the point of the output part that is there now, relative to the other part of the output joint: by
     # the output alone, which has a direction also where the output rests
-    at = places(mechanism.linkage, motion.displacements, chords=True)
+    at = places(mechanism.linkage, tuple(jnp.where(closed, q, 0.0) for q in motion.displacements), chords=True)
     turn = at.joints[number].coordinates(own)[index]
-    velocity = velocity_at(turn, at.scale.arm(found.points[through].T)).T
+    velocity = velocity_at(turn, at.scale.arm(point.T)).T
     velocity = velocity * (1.0 if is_length(own.coordinates[index]) else at.scale.size * METRES[mechanism.unit])
     along = jnp.abs(jnp.sum(push * velocity, axis=1))
     across = root(jnp.sum(jnp.cross(push, velocity) ** 2, axis=1))
