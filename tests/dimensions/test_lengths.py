@@ -233,8 +233,13 @@ def test_lengths_inside_jit_vmap_and_grad():
 
     sides = jnp.linspace(80.0, 130.0, 1000)
     np.testing.assert_allclose(jax.jit(jax.vmap(place))(sides), jax.vmap(closed)(sides), atol=1e-12)
-    for slope in (jax.jacfwd, jax.jacrev, lambda f: jax.jacfwd(jax.jacrev(f))):
-        np.testing.assert_allclose(jax.jit(slope(place))(118.0), slope(closed)(118.0), rtol=1e-9)
+
+    def slopes(function, side):
+        """Of first order in either mode, and of second order."""
+        return [way(function)(side) for way in (jax.jacfwd, jax.jacrev, lambda f: jax.jacfwd(jax.jacrev(f)))]
+
+    for found, expected in zip(jax.jit(lambda side: slopes(place, side))(118.0), slopes(closed, 118.0), strict=True):
+        np.testing.assert_allclose(found, expected, rtol=1e-9)
     spoilt = jax.jit(lambda side: mechanism.with_lengths({key: side}).joints["C"].frames_1)(400.0)
     assert np.all(np.isnan(spoilt))  # the triangle cannot be: no number is better than a wrong one
 
