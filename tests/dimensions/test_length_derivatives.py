@@ -209,10 +209,10 @@ def test_a_failed_pose_spoils_no_gradient():
     closed = np.asarray(mechanism.sweep({"A": inputs}).closed)
     assert 0 < closed.sum() < len(closed)
     exact = jax.jacfwd(exactly(lambda x: planar.fourbar(START + inputs, 40.0, 20.0, x, 30.0).rocker))(25.0)
-    slope = jax.jacfwd(ours)(25.0)
+    slope, reverse = jax.jit(lambda x: (jax.jacfwd(ours)(x), jax.grad(lambda x: jnp.sum(ours(x)))(x)))(25.0)
     agree(slope[closed], exact[closed])
     assert np.all(slope[~closed] == 0)
-    np.testing.assert_allclose(jax.grad(lambda x: jnp.sum(ours(x)))(25.0), np.sum(exact[closed]), rtol=1e-9)
+    np.testing.assert_allclose(reverse, np.sum(exact[closed]), rtol=1e-9)
 
 
 @pytest.mark.long
