@@ -81,11 +81,17 @@ class GridSteps:
             (failed,) = np.nonzero(~np.asarray(found.taken) & (np.asarray(found.residual) <= most))
             if len(failed):
                 chosen = [[part[..., failed] for part in state] for state in states]
-                found = _merged(found, self.walk(chosen, begin[:, failed], end[:, failed], count), failed)
+                again = self.walk(chosen, begin[:, failed], end[:, failed], count, to_end=count < SHORTEST_STEPS)
+                found = _merged(found, again, failed)
         return found
 
-    def walk(self, states: Sequence[Sequence[np.ndarray]], begin: Inputs, end: Inputs, count: int) -> Steps:
-        """Walk from poses to others in `count` steps each, a batch at a time."""
+    def walk(
+        self, states: Sequence[Sequence[np.ndarray]], begin: Inputs, end: Inputs, count: int, to_end: bool = True
+    ) -> Steps:
+        """Walk from poses to others in `count` steps each, a batch at a time.
+
+        Unless `to_end`, loops are not closed any more behind a step that is not taken: their residual tells nothing.
+        """
         size, parts = begin.shape[1], []
         for first in range(0, size, BATCH):
             which = np.minimum(np.arange(first, first + BATCH), size - 1)
@@ -94,7 +100,8 @@ class GridSteps:
                 tuple(jnp.asarray(each[np.array(e.inputs)][:, which]) for e in self.loop_groups)
                 for each in (begin, end)
             ]
-            found = _walk(self.systems, self.options.of_program, self.joints, chosen, *rows, count, self.max_residual)
+            program = partial(_walk, self.systems, self.options.of_program, self.joints)
+            found = program(chosen, *rows, count, to_end, self.max_residual)
             parts.append(jax.tree.map(np.asarray, found))
         return jax.tree.map(lambda *each: np.concatenate(each, axis=-1)[..., :size], *parts)
 
@@ -119,6 +126,7 @@ def _walk(
     begin: tuple[Float[Array, "driven steps"], ...],
     end: tuple[Float[Array, "driven steps"], ...],
     count: int | Array,
+    to_end: bool | Array,
     max_residual: float | Array,
 ) -> Steps:
     """Move the inputs of closed poses from `begin` to `end` in so many steps; all loop groups have to follow."""
@@ -139,7 +147,8 @@ def _walk(
             slope = input_slopes(system, state, before, direction)
             predicted = drive(system, retract(system, state, slope), ends[0] + then * (ends[1] - ends[0]))
             target = rounding_residual(state.x.dtype, CLOSED_ROUNDINGS)
-            there = levenberg_marquardt(problem, predicted, options.rescue_steps, target)
+            most = jnp.where(taken | to_end, options.rescue_steps, 0)
+            there = levenberg_marquardt(problem, predicted, most, target)
             travel = difference(predicted, state)
             ratio = determinant_ratio(before.jacobian, there.closure.jacobian, equation_blocks(system))
             good = (there.residual_norm <= max_residual) & (travel <= MAX_TRAVEL) & jnp.all(ratio > 0, axis=0)

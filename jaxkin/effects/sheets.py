@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from functools import partial
 
+import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Array, Float, Int
 
 from jaxkin.effects.grid_steps import GridSteps, Inputs, neighbours
 from jaxkin.effects.mode_search import SAME, SAME_SINGLE
 from jaxkin.mechanism.motion import Motion
 from jaxkin.solve.closure.closure import scaled_geometry
 from jaxkin.solve.closure.joint_coordinates import as_state
+from jaxkin.solve.system.joints import Joints
+from jaxkin.solve.system.loop_system import LoopSystem
 
 MAX_POSES = 256
 """Most poses of a node: a mechanism with more than Dietmaier's forty is not known, and what is a continuum is refused
@@ -41,7 +45,7 @@ class Sheets:
         every = []
         for loop_group in self.steps.loop_groups:
             rows = jnp.stack([modes.displacements[joint][:, k] for joint, k in loop_group.columns])
-            _, lengths = scaled_geometry(loop_group.system, loop_group.joints)
+            lengths = _scales(loop_group.system, loop_group.joints)
             state = as_state(loop_group.system, loop_group.joints.frames_1, loop_group.joints.frames_2, rows)
             every += [np.asarray(state.x / lengths), np.asarray(state.turns)]
         for mode in range(len(modes)):
@@ -115,3 +119,9 @@ class Sheets:
             found += [x[length], np.cos(x[~length]), np.sin(x[~length])]
             found += [np.outer(turn, turn)[np.triu_indices(4)] for turn in turns]
         return np.concatenate(found)
+
+
+@partial(jax.jit, static_argnums=0)  # op by op, the geometry would be some hundred programs
+def _scales(system: LoopSystem, joints: Joints) -> Float[Array, "columns 1"]:
+    """Compute the factor of each column from its scaled coordinate to that of the mechanism."""
+    return scaled_geometry(system, joints)[1]
