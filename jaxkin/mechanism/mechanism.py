@@ -207,11 +207,11 @@ class Mechanism:
     def with_lengths(self, changes: Mapping[Any, Any]) -> Mechanism:
         """Make the mechanism with some of its `lengths` changed and all others as they are.
 
-        Of the two joints that a key names the first stays where it is on its part and the second moves, with all that
-        coincide with it; the part's further joints stay too, and their distances and angles to the moved one are kept
-        (of three axes or more that are not parallel, offsets follow). Axes that coincide move apart along the x axis
-        of the first one's frame. A sweep closes the loops again; solids are left behind. Raises ValueError for a length
-        that does not exist, is negative, or cannot hold together with those kept: of traced ones NONFINITE poses."""
+        Of the two joints that a key names the first stays where it is on its part, and the second moves with all that
+        coincide with it; others stay too, and keep their distances and angles to the moved one (of three axes or more
+        that are not parallel, offsets follow). Axes that coincide move apart along x of the first one's frame. A sweep
+        closes the loops again; solids are left behind. Raises ValueError for a length that does not exist, is negative,
+        or does not fit those kept; traced ones that do not fit make poses NONFINITE, negative ones go the other way."""
         from jaxkin.dimensions.lengths import with_lengths
 
         return self.with_linkage(with_lengths(self.linkage, changes))
