@@ -33,6 +33,8 @@ def check(path: Path) -> str | None:
         raise ValueError(f"{path.name} is empty: expected a mesh in {kind.upper()} format")
     with path.open("rb") as file:
         head = file.read(20_000)
+    if re.match(rb"\s*ISO-10303-21", head):
+        raise ValueError(f"{path.name} is a STEP file: call it {path.stem}.step")
     if size > MAX_MESH_BYTES and kind != "stl":
         raise ValueError(f"{path.name} is {size / 1e6:.0f} MB, more than {MAX_MESH_BYTES / 1e6:.0f}: export it coarser")
     return {"stl": _stl, "obj": _obj, "ply": _ply, "3mf": _3mf, "glb": _glb, "dae": _dae}[kind](path, head, size)

@@ -78,6 +78,8 @@ def glb(nodes, count=36):
 BROKEN = {
     "empty.stl": (b"", "is empty"),
     "zeros.stl": (bytes(20_000), "its header announces 0 triangles, which take 84 bytes, but it has 20000"),
+    "solid.stl": (b"ISO-10303-21;\nHEADER;\n" + NOISE, r"is a STEP file: call it solid\.step"),
+    "solid.obj": (b"ISO-10303-21;\nHEADER;\n", r"is a STEP file: call it solid\.step"),
     "none.stl": (stl(CORNERS[:0]), "holds no triangles"),
     "claims.stl": (stl(CORNERS, 2**32 - 1), "announces 4294967295 triangles, which take 214748364834 bytes, but"),
     "noise.stl": (NOISE, "is damaged or cut off, or no STL file"),
