@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -76,7 +76,7 @@ class Assembly:
         fixed: Sequence[str] = (),
         rigid: Sequence[Sequence[str]] = (),
         ignore: Sequence[Sequence[str]] = (),
-        joints: Sequence[Joint] = (),
+        joints: Iterable[Joint] = (),
         combine: bool = True,
         contacts: Sequence[Contact] | None = None,
         align: float | int | None = None,
@@ -159,7 +159,7 @@ class Assembly:
         *,
         fixed: Sequence[str],
         rigid: Sequence[Sequence[str]] = (),
-        joints: Sequence[Joint] = (),
+        joints: Iterable[Joint] = (),
         align: float | int | None = None,
         exclude: Sequence[str] = (),
     ) -> Mechanism:

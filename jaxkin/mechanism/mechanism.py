@@ -68,7 +68,7 @@ class Mechanism:
     def build(
         *,
         fixed: Sequence[str],
-        joints: Sequence[Joint],
+        joints: Iterable[Joint],
         couplings: Sequence[Coupling] = (),
         unit: str = "",
         align: float | int | None = None,
