@@ -76,8 +76,8 @@ REFUSED = {
     "jk.screw('A', 'p', 'q', point=(0, 0, 0), axis=(0, 0, 1), pitch=np.nan)": "pitch must be a finite number, the",
     "jk.SolverOptions(tolerance='1e-9')": "must be a positive finite number such as 1e-9, got '1e-9'",
     "jk.SolverOptions(tolerance=True)": "must be a positive finite number such as 1e-9, got True",
-    "jk.joint_on_frames('A', 'p', 'q', kind='screw', frame1=np.eye(4), frame2=np.eye(4), pitch='2')": "joint 'A': pitch "
-    "must be a finite number, the advance per turn, got '2'",
+    "jk.joint_on_frames('A', 'p', 'q', kind='screw', frame1=np.eye(4), frame2=np.eye(4), pitch='2')": "joint 'A': "
+    "pitch must be a finite number, the advance per turn, got '2'",
     "jk.inverse(arm, {'A': angles}, rest={'A': 'x'})": "the place of rest of 'A' must be one finite number, got 'x'",
     "jk.surface_points(lambda u, v: (u, v, u), (0, 1), (0, 1), samples=40)": "samples must be a list of two whole "
     "numbers, such as (40, 40), got 40",
