@@ -59,7 +59,7 @@ def sigma_min(motion: Motion) -> Float[Array, " poses"]:
         if inside and (rank := _rank(linkage, number, system, columns)):
             rows = jnp.stack([motion.displacements[joint][:, coordinate] for joint, coordinate in columns])
             joints = group_joints(linkage, linkage.solved_joints, loop_group)
-            # at poses without numbers it is that of others, and left out: NaN would spoil the derivatives of all poses
+            # poses without numbers stand at rest until the end: NaN would spoil the derivatives of all poses
             finite = jnp.all(jnp.isfinite(rows), axis=0)
             sigma = smallest_singular_value(system, rank, joints, jnp.where(finite, rows, 0.0))
             least = jnp.minimum(least, jnp.where(finite, sigma, jnp.nan))

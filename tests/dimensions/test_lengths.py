@@ -236,7 +236,7 @@ def test_lengths_inside_jit_vmap_and_grad():
 
     def slopes(function, side):
         """Of first order in either mode, and of second order."""
-        return [way(function)(side) for way in (jax.jacfwd, jax.jacrev, lambda f: jax.jacfwd(jax.jacrev(f)))]
+        return [mode(function)(side) for mode in (jax.jacfwd, jax.jacrev, lambda f: jax.jacfwd(jax.jacrev(f)))]
 
     for found, expected in zip(jax.jit(lambda side: slopes(place, side))(118.0), slopes(closed, 118.0), strict=True):
         np.testing.assert_allclose(found, expected, rtol=1e-9)
