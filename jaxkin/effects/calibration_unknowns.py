@@ -81,8 +81,8 @@ class Unknowns:
             for side in sides:
                 frames = list(getattr(joints[column], side))
                 end = 0 if side == "frames_1" else -1
-                frame = xp.asarray(frames[end])
-                frames[end] = shifted(xp, turned(xp, frame, turn, frame[:3, 3]), shift)
+                pose = xp.asarray(frames[end])
+                frames[end] = shifted(xp, turned(xp, pose, turn, pose[:3, 3]), shift)
                 stacked = xp.stack(frames)
                 given = joints[column]
                 joints[column] = (
