@@ -8,8 +8,10 @@ from scipy.optimize import linprog
 
 from jaxkin.contacts.detect import find_contacts
 from jaxkin.contacts.hulls import PlaneMotion, gaps_between_hulls, hull
+from jaxkin.contacts.separation import on_plane
 from jaxkin.contacts.states import find_state
 from jaxkin.geometry.movements import MOVEMENTS, is_length
+from jaxkin.geometry.surfaces import Plane, Sphere
 from jaxkin.joints.joint import joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.screws import displacements
@@ -150,3 +152,13 @@ def test_chords_of_an_arc_are(ring, turn):
 
 def test_points_on_a_line_have_no_hull():
     assert hull(np.array([[0.0, 0], [1, 0], [2, 0], [3, 0]])) is None
+
+
+def test_a_ball_that_rolls_by_a_quarter_is_as_near_as_before(solids):
+    """Whichever of its directions stands on the plane: exact quarter turns about x, y and z through its centre."""
+    x, z = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
+    table = solids.patch(Plane(0.0 * z, z), (-3, 3), (-3, 3), x)
+    ball = solids.patch(Sphere(z, 1.0, 1), (0, 2 * np.pi), (-1.5, 1.5), axis=x)
+    turns = np.array([np.eye(3), [[1, 0, 0], [0, 0, -1], [0, 1, 0]], [[0, 0, 1], [0, 1, 0], [-1, 0, 0]]])
+    moved = np.concatenate([turns, (z - turns @ z)[:, :, None]], axis=2).transpose(1, 2, 0)
+    np.testing.assert_array_equal(on_plane(table, ball, moved), on_plane(table, ball, moved[..., :1])[0])
