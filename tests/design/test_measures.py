@@ -3,21 +3,14 @@
 import jax
 import numpy as np
 
-import jaxkin as jk
 from jaxkin import design
+from reference.mechanisms import fourbar_through
 
 
 def test_links_in_line_have_finite_derivatives_in_both_modes():
     """Crank and coupler of (0, 0), (1, 0), (3, 0) are in line, where the angle turns back from pi: its slope is on
     neither side, and leaves those of the other poses alone."""
-    z = (0, 0, 1)
-    joints = [
-        jk.revolute("A", "ground", "crank", point=(0, 0, 0), axis=z),
-        jk.revolute("B", "crank", "coupler", point=(1, 0, 0), axis=z),
-        jk.revolute("C", "coupler", "rocker", point=(3, 0, 0), axis=z),
-        jk.revolute("D", "ground", "rocker", point=(3, 2, 0), axis=z),
-    ]
-    mechanism = jk.Mechanism.build(fixed=["ground"], joints=joints)
+    mechanism = fourbar_through((0, 0), (1, 0), (3, 0), (3, 2))
 
     def angles(inputs):
         return design.transmission_angle(mechanism.sweep({"A": inputs}), "B", ("A", "C"))

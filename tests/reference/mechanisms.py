@@ -19,14 +19,18 @@ def flat(point) -> tuple[float, float, float]:
 def planar_fourbar(theta=1.0, pin=revolute, **lengths) -> Mechanism:
     """Crank A, coupler pins B and C, rocker D; `pin` may be `cylindrical` for the paper's own joints."""
     at: FourBar = fourbar(np.array([theta]), **lengths)
-    ground = lengths.get("ground", 100.0)
+    return fourbar_through((0, 0), at.crank_pin, at.rocker_pin, (lengths.get("ground", 100.0), 0), pin)
+
+
+def fourbar_through(a, b, c, d, pin=revolute) -> Mechanism:
+    """The four-bar A, B, C, D whose pins are at these points of the plane."""
     return Mechanism.build(
         fixed=["ground"],
         joints=[
-            pin("A", "ground", "crank", point=(0, 0, 0), axis=Z),
-            pin("B", "crank", "coupler", point=flat(at.crank_pin), axis=Z),
-            pin("C", "coupler", "rocker", point=flat(at.rocker_pin), axis=Z),
-            pin("D", "ground", "rocker", point=(ground, 0, 0), axis=Z),
+            pin("A", "ground", "crank", point=flat(a), axis=Z),
+            pin("B", "crank", "coupler", point=flat(b), axis=Z),
+            pin("C", "coupler", "rocker", point=flat(c), axis=Z),
+            pin("D", "ground", "rocker", point=flat(d), axis=Z),
         ],
     )
 

@@ -9,7 +9,7 @@ import pytest
 import jaxkin as jk
 from jaxkin.examples import path
 from reference.energies import fourbar, whole_turn
-from reference.mechanisms import slider_crank
+from reference.mechanisms import fourbar_through, slider_crank
 from reference.planar import fourbar as fourbar_angles
 from reference.planar import slider_crank as slider_crank_angles
 
@@ -68,14 +68,7 @@ def test_the_angle_where_the_output_rests():
 def test_a_right_angle_has_all_its_digits_and_finite_derivatives():
     """Coupler and rocker of (1, 3), (4, 3), (4, 0) are at right angles; beside that pose cos(angle) follows from the
     law of cosines."""
-    z = (0, 0, 1)
-    joints = [
-        jk.revolute("A", "ground", "crank", point=(0, 0, 0), axis=z),
-        jk.revolute("B", "crank", "coupler", point=(1, 3, 0), axis=z),
-        jk.revolute("C", "coupler", "rocker", point=(4, 3, 0), axis=z),
-        jk.revolute("D", "ground", "rocker", point=(4, 0, 0), axis=z),
-    ]
-    mechanism = jk.Mechanism.build(fixed=["ground"], joints=joints)
+    mechanism = fourbar_through((0, 0), (1, 3), (4, 3), (4, 0))
 
     def angles(inputs):
         return jk.transmission(mechanism.sweep({"A": inputs}), "D").angle
