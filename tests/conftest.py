@@ -35,6 +35,19 @@ def pytest_configure(config):
         os.environ.setdefault("PYTHONPYCACHEPREFIX", str(config.cache.mkdir("bytecode")))
 
 
+def pytest_collection_modifyitems(config, items):
+    """Run the first and the last case of each test where types and shapes are executed: they are those of functions,
+    and other cases of a test call the same ones."""
+    if not config.getoption("jaxtyping_packages", None):
+        return
+    cases: dict[str, list] = {}
+    for item in items:
+        cases.setdefault(item.nodeid.partition("[")[0], []).append(item)
+    kept = {id(each) for some in cases.values() for each in (some[0], some[-1])}
+    config.hook.pytest_deselected(items=[item for item in items if id(item) not in kept])
+    items[:] = [item for item in items if id(item) in kept]
+
+
 MOST_MAPS = 15_000
 """Memory maps of a process above which compiled programs are forgotten. A program has some hundred of them, and Linux
 allows 65,530 by default: beyond that XLA crashes."""
