@@ -62,6 +62,14 @@ class Bore:
         return tuple((min(span), max(span)) for span in spans)
 
 
+def near_axis(points: Float[np.ndarray, "points 3"], axis: Bore) -> list[int]:
+    """Find which points are on the axis of a bore, to `NEAR_LENGTH` over its radius: of a plate with hundreds of holes
+    all at once, in place of one after another."""
+    offsets = points - axis.point
+    away = offsets - np.outer(offsets @ axis.axis, axis.axis)
+    return np.flatnonzero(np.linalg.norm(away, axis=1) <= NEAR_LENGTH * axis.radius).tolist()
+
+
 def bores(part: Part) -> list[Bore]:
     """Find the bores and pins of a part; faces that go round by less than a half-shell together are left out."""
     groups: list[tuple[Cylinder, list[Face]]] = []

@@ -30,7 +30,7 @@ def collets(known: Known) -> list[Inference]:
             continue
         if not _has_steps(known, piece, shaft) or any(piece.part in each.parts for each in result):
             continue
-        around = [each for each in known.bores[piece.part] if not each.hole and each.on_axis_of(piece)]
+        around = [each for each in known.bores_on(piece.part, piece) if not each.hole]
         closing = (
             each
             for name in known.names

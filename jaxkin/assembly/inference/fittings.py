@@ -58,7 +58,7 @@ def _held(known: Known, pair: CommonAxis, text: str) -> Inference:
 def _is_fitting(known: Known, pair: CommonAxis) -> bool:
     """Tell whether a part is hollow along its thread, and has a hexagon about it that is wider."""
     name, axis = pair.one.part, pair.one.axis
-    own = [bore for bore in known.bores[name] if bore.on_axis_of(pair.one)]
+    own = known.bores_on(name, pair.one)
     if not is_hollow(known, name, own):
         return False
     planes = [face.surface for face in known.solids[name].faces if isinstance(face.surface, Plane)]

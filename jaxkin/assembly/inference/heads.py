@@ -73,9 +73,7 @@ def is_exposed(known: Known, stack: Stack) -> bool:
     pairs = [pair for pair in known.axes if not pair.virtual and pair.one.part in own]
     if not pairs:
         return stack.guides
-    pins = [
-        bore for part in stack.fasteners for bore in known.bores[part] if not bore.hole and bore.on_axis_of(stack.axis)
-    ]
+    pins = [bore for part in stack.fasteners for bore in known.bores_on(part, stack.axis) if not bore.hole]
     wide = [
         hole
         for part in stack.held

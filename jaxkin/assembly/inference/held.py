@@ -58,7 +58,7 @@ def bolted_bodies(known: Known, every: Sequence[Stack]) -> list[Inference]:
 
     def of_bodies(stack: Stack) -> Stack:
         own = {body[part] for part in stack.fasteners}
-        held = [p for p in stack.held if any(bore.on_axis_of(stack.axis) for bore in known.bores[p]) or body[p] in own]
+        held = [p for p in stack.held if known.bores_on(p, stack.axis) or body[p] in own]
         held = [part for part in held if body[part] in own or not _is_guided(known, stack, part, held)]
         return replace(stack, held=tuple(dict.fromkeys(body[part] for part in held)))
 

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis
-from jaxkin.assembly.inference.bores import NEAR_LENGTH
+from jaxkin.assembly.inference.bores import NEAR_LENGTH, Bore, near_axis
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.measured import Measured
 from jaxkin.assembly.inference.sockets import sockets
@@ -76,6 +76,11 @@ class Known:
         self.sockets = [each for each in sockets(self.parts, clearance) if frozenset(each.parts) not in ignored]
         self.axes = [pair for pair in found if not pair.tapped and not self._is_neck(pair)]
         self.tapped = [pair for pair in found if pair.tapped]
+
+    def bores_on(self, part: str, axis: Bore) -> list[Bore]:
+        """Find the bores and pins of a part that are on the axis of another one, to `NEAR_ANGLE` and `NEAR_LENGTH`."""
+        own = self.bores[part]
+        return [own[k] for k in near_axis(self.measured.middles(part), axis) if own[k].on_axis_of(axis)]
 
     def in_order(self, names: Iterable[str]) -> tuple[str, ...]:
         """Sort names of parts as the assembly has them."""

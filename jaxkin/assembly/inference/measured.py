@@ -30,12 +30,19 @@ class Measured:
         self._stops: dict[tuple[str, int], list[StopFace]] = {}
         self._slanted: dict[tuple[str, int], list[StopFace]] = {}
         self._inside: dict[tuple[str, str], float] = {}
+        self._middles: dict[str, Float[np.ndarray, "bores 3"]] = {}
         self._distances: dict[frozenset[str], float] = {}
 
     @cached_property
     def bores(self) -> dict[str, list[Bore]]:
         """Bores and pins of each part."""
         return {part.name: bores(part) for part in self.parts}
+
+    def middles(self, part: str) -> Float[np.ndarray, "bores 3"]:
+        """Give the middles of the bores and pins of a part."""
+        if part not in self._middles:
+            self._middles[part] = np.array([bore.point for bore in self.bores[part]]).reshape(-1, 3)
+        return self._middles[part]
 
     @cached_property
     def bearings(self) -> list[Bearing]:

@@ -28,11 +28,7 @@ def _goes_on(known: Known, stack: Stack, low: float, high: float) -> bool:
         if pair.virtual or pair.one.part not in stack.fasteners or pair.other.part not in stack.held:
             continue
         pin, along = pair.one, stack.axis.axis
-        collars = [
-            bore
-            for bore in known.bores[pin.part]
-            if not bore.hole and bore.on_axis_of(pin) and bore.radius > WIDER * pin.radius
-        ]
+        collars = [bore for bore in known.bores_on(pin.part, pin) if not bore.hole and bore.radius > WIDER * pin.radius]
         spans = [span for bore in collars for span in bore.spans_along(along)]
         first, last = pin.reach(along)
         beyond = [start - first for start, end in spans if start + end < 2 * low]

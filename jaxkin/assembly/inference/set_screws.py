@@ -65,7 +65,7 @@ def clamped_hubs(known: Known, fastening: Collection[str]) -> list[Inference]:
             inside.setdefault(id(pair.other), set()).add(pair.one.part)
     for pair in pins:
         shaft, hub = pair.parts
-        own = [bore for bore in known.bores[shaft] if bore.on_axis_of(pair.one)]
+        own = known.bores_on(shaft, pair.one)
         crossing = [bore for bore in known.bores[hub] if bore.hole and _is_across(bore, pair)]
         turned = is_round(known, shaft, own)
         across = [bore for bore in crossing if bore.radius <= MAX_ACROSS * pair.one.radius]
@@ -77,7 +77,7 @@ def clamped_hubs(known: Known, fastening: Collection[str]) -> list[Inference]:
         screws = [screw for bore in crossing if (screw := _screw(known, bore, pair, fastening)) is not None]
         if not turned and not (screws or pinched):
             continue
-        around = [bore for bore in known.bores[hub] if bore.on_axis_of(pair.other)]
+        around = known.bores_on(hub, pair.other)
         slit = any(not _is_released(known, inside.get(id(bore), ()), {*pair.parts, *fastening}) for bore in slits)
         fitted = abs(pair.clearance) <= FITTED * pair.other.radius
         alone = hub not in housed and any(not bore.hole for bore in around) and is_round(known, hub, around)
@@ -127,7 +127,7 @@ def _is_slit(known: Known, hole: Bore, pair: CommonAxis) -> bool:
     On the far side of the slit it may be as narrow as its thread.
     """
     radius, apart = pair.one.radius, _from_axis(hole, pair)
-    along = [each for each in known.bores[hole.part] if each.hole and each.on_axis_of(hole)]
+    along = [each for each in known.bores_on(hole.part, hole) if each.hole]
     spans = merged((span for each in along for span in each.spans_along(hole.axis)), SAME_LENGTH * hole.radius)
     gaps = [low - high for (_, high), (low, _) in pairwise(spans)]
     return radius < apart <= MAX_BESIDE * radius and len(gaps) == 1 and gaps[0] <= MAX_SLIT * radius
@@ -212,4 +212,4 @@ def _passes(known: Known, screw: CommonAxis, pair: CommonAxis, short: float, fas
 
 def _is_bush(known: Known, pin: Bore) -> bool:
     """Tell whether a pin is the outside of a bush, which presses on no shaft."""
-    return is_hollow(known, pin.part, [bore for bore in known.bores[pin.part] if bore.on_axis_of(pin)])
+    return is_hollow(known, pin.part, known.bores_on(pin.part, pin))

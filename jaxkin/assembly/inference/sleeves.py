@@ -52,7 +52,7 @@ def sleeves(known: Known) -> list[Sleeve]:
         if not outside or name in axles or name in known.closed:
             continue
         housing = min(outside, key=lambda pair: (abs(pair.clearance), -engaged(pair)))
-        own = [bore for bore in known.bores[name] if bore.on_axis_of(housing.one)]
+        own = known.bores_on(name, housing.one)
         if not any(bore.hole for bore in own) or _carries(known, name, housing):
             continue
         if is_round(known, name, own, RIB) and is_hollow(known, name, own):
@@ -136,7 +136,7 @@ def hollow_axles(known: Known) -> set[str]:
     result = set()
     for pair in known.axes:
         name, along = pair.one.part, pair.one.axis
-        if pair.virtual or not any(bore.hole and bore.on_axis_of(pair.one) for bore in known.bores[name]):
+        if pair.virtual or not any(bore.hole for bore in known.bores_on(name, pair.one)):
             continue
         low, high = pair.other.reach(along)
         others = [each.other for each in known.axes if each.one.part == name and each.other.part != pair.other.part]
@@ -157,7 +157,7 @@ def is_round(known: Known, name: str, own: list[Bore], most: float = ROUND) -> b
 
 def is_round_about(known: Known, part: str, axis: Bore) -> bool:
     """Tell whether a part is round about an axis, as a roller or a pulley is."""
-    own = [bore for bore in known.bores[part] if bore.on_axis_of(axis)]
+    own = known.bores_on(part, axis)
     return any(not bore.hole for bore in own) and is_round(known, part, own)
 
 

@@ -49,7 +49,7 @@ def butting_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
     result = []
     for (pin, other), ways in directions.items():
         # where there is a hole on the axis, the pin or what it is on goes through
-        sides = {bore.hole for bore in known.bores[other] if bore.on_axis_of(axis_of[pin])}
+        sides = {bore.hole for bore in known.bores_on(other, axis_of[pin])}
         elsewhere = any(pair.one.part == pin and pair.other.part != other for pair in fitting)
         coaxial, between = sides == {False} and not elsewhere, len(ways) == 2 and True not in sides
         if between or coaxial:
