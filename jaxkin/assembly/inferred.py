@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -111,7 +111,7 @@ def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said, tubes
     moves = useful_freedoms(mechanism) or _has_free_slide(mechanism)
     told = _counted(mechanism, found)
     if found and not moves:
-        unlocked, dropped = _unlocked(assembly, contacts, said, found)
+        unlocked, dropped = _unlocked(assembly, contacts, said, found, mechanism)
         told = unlocked or told
         if dropped is not None and dropped.joint is None:
             # what is a body no longer may be a joint: a lever on a pin with play
@@ -184,16 +184,18 @@ def _without(dropped: Inference, mechanism: Mechanism) -> Mechanism:
 
 
 def _unlocked(
-    assembly: Assembly, contacts: Sequence[Contact], said: Said, found: Sequence[Inference]
+    assembly: Assembly, contacts: Sequence[Contact], said: Said, found: Sequence[Inference], locked: Mechanism
 ) -> tuple[Mechanism | None, Inference | None]:
     """Find the mechanism without the weakest inference that locks it, and that inference: one with useful freedoms, or
-    with any; None otherwise.
+    with any where no part spins; None otherwise.
 
     Inferences that hold parts which nothing else does are weaker than those of bolts and pins: these come first. Those
     without which a part would hang on nothing stay, and so do those without which screws and nuts alone would turn: a
-    structure of bolted plates is no mechanism. A pin in a bush, of which nothing else is inferred, is one.
+    structure of bolted plates is no mechanism. A pin in a bush, of which nothing else is inferred, is one. What only
+    spins in the `locked` mechanism, which has all inferences, keeps them.
     """
     movable, without_it = None, None
+    spinning = {each.name for each in locked.linkage.spinning}
     droppable = [each for each in reversed(found) if each.evidence.kind not in _KEPT]
     for dropping in droppable[:_TRIED]:
         fewer = [each for each in found if each is not dropping]
@@ -203,11 +205,18 @@ def _unlocked(
         if fewer and _frees_fasteners_only(other, dropping):
             continue
         other = _without(dropping, other)
-        if useful_freedoms(other):
+        if useful_freedoms(other) and _drives_another(other, spinning):
             return other, dropping
-        if movable is None and any(joint.freedoms for joint in other.all_joints):
+        if not spinning and movable is None and any(joint.freedoms for joint in other.all_joints):
             movable, without_it = other, dropping
     return movable, without_it
+
+
+def _drives_another(mechanism: Mechanism, spinning: Collection[str]) -> bool:
+    """Tell whether a joint can be driven that is none of the parts which only spun before, such as a disc on its screw:
+    what it loses with its hinge is no motion of the machine."""
+    driven = {name.rpartition(".")[0] for name in mechanism.mobility().drivable}
+    return any(each.name in driven and not {*spinning} & {*each.parts} for each in mechanism.all_joints)
 
 
 def _frees_fasteners_only(mechanism: Mechanism, dropped: Inference) -> bool:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.seats import locks_slide
+from jaxkin.contacts.contact import Contact
+from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
@@ -24,12 +26,21 @@ def resting(mechanism: Mechanism) -> list[Inference]:
     found = []
     owner = body_of_parts(mechanism.bodies)
     for joint in mechanism.all_joints:
-        lies = joint.kind is JointKind.PLANAR and joint.name in mechanism.contacts
+        lies = joint.kind is JointKind.PLANAR and _looks_one_way(joint, mechanism.contacts.get(joint.name, ()), owner)
         if lies and not locks_slide(mechanism, joint, owner):
             one, other = map(repr, joint.parts)
             text = f"{one} lies on {other}, with no screw drawn, and nothing else needs it to move there"
             found.append(Inference(joint.parts, Evidence(EvidenceKind.ENCLOSED, (), text)))
     return found
+
+
+def _looks_one_way(joint: Joint, contacts: Sequence[Contact], owner: Mapping[str, str]) -> bool:
+    """Tell whether the first body of a joint meets the second with planes of one direction; the walls of a slot on both
+    sides of a block look against each other."""
+    first = owner[joint.parts[0]]
+    own = (each.surfaces[0] if owner[each.parts[0]] == first else each.surfaces[1] for each in contacts)
+    normals = [surface.normal for surface in own if isinstance(surface, Plane)]
+    return bool(normals) and all(float(normal @ normals[0]) > 0 for normal in normals)
 
 
 def leaves_all_moving(

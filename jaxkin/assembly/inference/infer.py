@@ -46,7 +46,7 @@ from jaxkin.assembly.inference.rod_end_bolts import bolted_balls
 from jaxkin.assembly.inference.screwed import screwed_bodies, screwed_in
 from jaxkin.assembly.inference.set_on import set_on_pins
 from jaxkin.assembly.inference.set_screws import clamped_hubs
-from jaxkin.assembly.inference.shoes import shoes
+from jaxkin.assembly.inference.shoes import blocks_between_walls, shoes
 from jaxkin.assembly.inference.shouldered import pressed_on_shoulders
 from jaxkin.assembly.inference.sleeves import (
     barrels,
@@ -126,7 +126,7 @@ def infer(
     # which parts are fasteners: not rings and sleeves, nor what slides, turns or rolls
     fastening -= {name for each in rolling for name in (each.outer, each.inner)} | known.sleeves | known.closed
     fastening -= sliding_rods(known, set_in) | hollow_axles(known) | driven | barrels(set_in)
-    fastening -= rollers(known, fastening)
+    fastening -= rollers(known, fastening) | blocks_between_walls(known, fastening)
     known.take([*squared_hubs(known, fastening), *pressed_on_shoulders(known, fastening)])
     known.take(locked_threads(known, fastening))
     body = known.body

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
+from itertools import combinations
 
 import numpy as np
 
@@ -14,6 +15,7 @@ from jaxkin.assembly.inference.stop_faces import ACROSS, MAX_AXIAL_PLAY, stands_
 from jaxkin.assembly.inference.walls import Looking, facing
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector
+from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
@@ -46,6 +48,32 @@ def shoes(known: Known) -> list[Inference]:
                 result.append(_turn(known, pair, room))
             tied |= {frozenset((body[shoe.name], each)) for each in (owner, carrier)}
     return result
+
+
+def blocks_between_walls(known: Known, fastening: Collection[str]) -> set[str]:
+    """Find the parts of the form of a nut that are shoes, too: each is on pins of parts that are no fasteners, and in
+    contact with two walls of a third part that look at each other, as the block of a quick return is in its lever."""
+    pins: dict[str, set[str]] = {}
+    for pair in known.axes:
+        if not pair.virtual:
+            pins.setdefault(pair.other.part, set()).add(pair.one.part)
+    result = set()
+    for name in {*fastening} & pins.keys():
+        beside = {part for pair in known.touching if name in pair for part in pair} - {name, *pins[name]}
+        if not pins[name] & {*fastening} and any(_is_between_walls(known, name, other) for other in beside):
+            result.add(name)
+    return result
+
+
+def _is_between_walls(known: Known, one: str, other: str) -> bool:
+    """Tell whether two plane faces of a part, which look away from each other, lie on faces of another part."""
+    contacts = known.between[frozenset((one, other))]
+    normals = [
+        plane.normal
+        for each in contacts
+        if each.contact_state.is_flat and isinstance(plane := each.surfaces[each.parts.index(one)], Plane)
+    ]
+    return any(np.linalg.norm(first + second) < ACROSS for first, second in combinations(normals, 2))
 
 
 def _lie_on_each_other(known: Known, one: str, other: str, axis: Vector) -> bool:

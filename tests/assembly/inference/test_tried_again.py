@@ -1,4 +1,5 @@
-"""What an inference takes for one body is tried as a joint, where nothing moves with it or it would lock a slide."""
+"""What an inference takes for one body is tried as a joint, where nothing moves with it or it would lock a slide; what
+turns by itself only is no such case."""
 
 import pytest
 
@@ -37,3 +38,29 @@ def test_a_yoke_that_a_guide_leads_with_play_is_not_held_to_the_crank_that_it_li
     assert kind_of(mechanism, "base", "yoke") == "prismatic"
     assert kind_of(mechanism, "base", "crank") == "revolute"
     assert kind_of(mechanism, "crank", "yoke") == "planar"
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_the_block_of_a_quick_return_turns_on_its_pin_and_slides_in_its_lever(seed):
+    """It has the form of a nut on the pin, and both walls of the lever lie on it."""
+    crank_axis, at_pin = (60.0, -15.0), (80.0, 0.0)
+    base = part("base", block((-40, -60, -20), (120, 60, -10)), pin(6, -10, 10), ring(5, 9, -10, 0, crank_axis))
+    crank = part("crank", pin(5, -10, 0, crank_axis), pin(30, 0, 5, crank_axis), pin(4, 5, 11, at_pin))
+    walls = [block((9, low, 5.5), (120, low + 4, 9.5)) for low in (-10, 6)]
+    lever = part("lever", ring(6, 9, 5.5, 9.5), *walls)
+    sides = [block((72, low, 5.5), (88, low + 1, 9.5)) for low in (-6, 5)]
+    block_on_pin = part("block", ring(4, 5, 5.5, 9.5, at_pin), *sides)
+    mechanism = anywhere(assembly(base, crank, lever, block_on_pin), seed).mechanism(fixed=["base"])
+    assert kind_of(mechanism, "block", "crank") == "cylindrical"
+    assert kind_of(mechanism, "block", "lever") == "planar"
+    assert mechanism.mobility().useful == 1
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_a_disc_on_a_shoulder_screw_keeps_its_hinge(seed):
+    """It turns by itself, which moves nothing else: nothing is given up for that."""
+    base = part("base", ring(2.5, 20, -10, 0))
+    disc = part("disc", ring(4, 30, 0, 8))
+    screw = part("screw", pin(2.5, -9, 0), pin(3.9, 0, 8.1), pin(7, 8.1, 13))
+    mechanism = anywhere(assembly(base, disc, screw), seed).mechanism(fixed=["base"])
+    assert kind_of(mechanism, "base", "disc") == "revolute"

@@ -80,6 +80,7 @@ def test_a_nut_on_no_screw_belongs_to_the_hole_that_it_is_on(seed):
     mechanism = anywhere(drawn, seed).mechanism(fixed=["base"])
     body = owners(mechanism)
     assert body["nut"] == body["base"] != body["wheel"]
+    assert kind_of(mechanism, "base", "wheel") == "revolute"
     assert any("its screw is not drawn" in note for note in mechanism.notes)
 
 
