@@ -36,7 +36,7 @@ MIN_ROUNDNESS = 0.84
 MIN_BUSH = 0.95
 """The same of a bush: round but for its tessellation."""
 MAX_PLAY = 0.1
-"""Difference of the radii of a bush and of the shaft that turns in it, over that of the bush, at most."""
+"""Difference of the radii of a bush and of the shaft that turns in it, over that of the shaft, at most."""
 TWIST_TOLERANCE = 1e-6
 """Entries of unit twists below this count as zero: far above rounding, far below design."""
 
@@ -75,7 +75,7 @@ def spins(mechanism: Mechanism) -> tuple[dict[str, Spin], dict[str, Spin]]:
     for part, joints in around.items():
         if part in mechanism.fixed or part not in solids or (spin := _spin(joints, size)) is None:
             continue
-        if not _is_round(solids[part], spin) or _turns_in_a_bush(mechanism, joints, solids[part], spin):
+        if not _is_round(solids[part], spin) or _turns_on_a_ring(mechanism, joints, part, spin):
             continue
         neighbours = dict.fromkeys(p for joint in joints for p in joint.parts if p != part)
         if len(neighbours) > 1:
@@ -108,21 +108,30 @@ def _spin(joints: Sequence[Joint], size: float) -> Spin | None:
     return Spin(kind, movement, forwards(frame(centre + size * point, axis)))
 
 
-def _turns_in_a_bush(mechanism: Mechanism, joints: Sequence[Joint], part: Part, spin: Spin) -> bool:
-    """Tell whether a part has a pin in a ring that is long and one body with others, as a shaft in a bush: it is there
-    to turn."""
+def _turns_on_a_ring(mechanism: Mechanism, joints: Sequence[Joint], part: str, spin: Spin) -> bool:
+    """Tell whether a body fits in or on a ring that is long and one body with others, as a shaft in a bush and a hub on
+    a hollow axle do: it is there to turn."""
     rows = mechanism.structure.row_of
     sizes = Counter(rows.values())
-    beside = {rows[other] for joint in joints for other in joint.parts if other != part.name}
-    pins = [face.surface.radius for face in part.faces if isinstance(face.surface, Cylinder) and face.surface.side > 0]
+    beside = {rows[other] for joint in joints for other in joint.parts if other != part}
+    own = _cylinders(*(each for each in mechanism.solids if rows.get(each.name) == rows[part]))
     for ring in (each for each in mechanism.solids if rows.get(each.name) in beside and sizes[rows[each.name]] > 1):
         away = (ring.outermost - spin.frame[:3, 3]) @ spin.frame[:3, :3]
-        holes = [face.surface for face in ring.faces if isinstance(face.surface, Cylinder) and face.surface.side < 0]
-        long = [hole.radius for hole in holes if np.ptp(away[:, 2]) >= hole.radius]
-        filled = any(abs(hole - pin) <= MAX_PLAY * hole for hole in long for pin in pins)
-        if filled and roundness(away[:, :2], np.zeros(2)) > MIN_BUSH:
+        length, around = np.ptp(away[:, 2]), _cylinders(ring)
+        long = any(each.side < 0 and length >= each.radius for each in around)
+        fits = any(
+            one.side == -other.side and abs(one.radius - other.radius) <= MAX_PLAY * one.radius
+            for one in own
+            for other in around
+        )
+        if long and fits and roundness(away[:, :2], np.zeros(2)) > MIN_BUSH:
             return True
     return False
+
+
+def _cylinders(*parts: Part) -> list[Cylinder]:
+    """List the cylindrical faces of parts."""
+    return [face.surface for part in parts for face in part.faces if isinstance(face.surface, Cylinder)]
 
 
 def _is_round(part: Part, spin: Spin) -> bool:
