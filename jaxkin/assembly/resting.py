@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Sequence
 from typing import TYPE_CHECKING
 
 from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.walls import is_in_slot
 from jaxkin.assembly.seats import locks_slide
 from jaxkin.contacts.contact import Contact
-from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
@@ -21,12 +21,13 @@ if TYPE_CHECKING:
 
 
 def resting(mechanism: Mechanism) -> list[Inference]:
-    """Find the bodies that faces hold to another one in one direction only: they lie there, and nothing that is drawn
-    keeps them in their place; but for those that slide in a third one on which the other one turns."""
+    """Find the bodies that faces hold to another one across one direction: they lie there, and nothing that is drawn
+    keeps them in their place; but for those in a slot, and those that slide in a third one on which the other turns."""
     found = []
     owner = body_of_parts(mechanism.bodies)
     for joint in mechanism.all_joints:
-        lies = joint.kind is JointKind.PLANAR and _looks_one_way(joint, mechanism.contacts.get(joint.name, ()), owner)
+        contacts = mechanism.contacts.get(joint.name, ())
+        lies = joint.kind is JointKind.PLANAR and contacts and not _slides_in_a_slot(contacts)
         if lies and not locks_slide(mechanism, joint, owner):
             one, other = map(repr, joint.parts)
             text = f"{one} lies on {other}, with no screw drawn, and nothing else needs it to move there"
@@ -34,13 +35,13 @@ def resting(mechanism: Mechanism) -> list[Inference]:
     return found
 
 
-def _looks_one_way(joint: Joint, contacts: Sequence[Contact], owner: Mapping[str, str]) -> bool:
-    """Tell whether the first body of a joint meets the second with planes of one direction; the walls of a slot on both
-    sides of a block look against each other."""
-    first = owner[joint.parts[0]]
-    own = (each.surfaces[0] if owner[each.parts[0]] == first else each.surfaces[1] for each in contacts)
-    normals = [surface.normal for surface in own if isinstance(surface, Plane)]
-    return bool(normals) and all(float(normal @ normals[0]) > 0 for normal in normals)
+def _slides_in_a_slot(contacts: Sequence[Contact]) -> bool:
+    """Tell whether some part is between the walls of another one: where walls of two parts clamp it, as a bolt and what
+    it is in do, it stays all the same."""
+    pairs: dict[frozenset[str], list[Contact]] = {}
+    for each in contacts:
+        pairs.setdefault(frozenset(each.parts), []).append(each)
+    return any(map(is_in_slot, pairs.values()))
 
 
 def leaves_all_moving(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from itertools import combinations
 
 import numpy as np
 
@@ -12,10 +11,9 @@ from jaxkin.assembly.inference.floating import wall_across
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.stop_faces import ACROSS, MAX_AXIAL_PLAY, stands_across
-from jaxkin.assembly.inference.walls import Looking, facing
+from jaxkin.assembly.inference.walls import Looking, facing, is_in_slot
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector
-from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
@@ -60,20 +58,10 @@ def blocks_between_walls(known: Known, fastening: Collection[str]) -> set[str]:
     result = set()
     for name in {*fastening} & pins.keys():
         beside = {part for pair in known.touching if name in pair for part in pair} - {name, *pins[name]}
-        if not pins[name] & {*fastening} and any(_is_between_walls(known, name, other) for other in beside):
+        slots = (is_in_slot(known.between[frozenset((name, other))]) for other in beside)
+        if not pins[name] & {*fastening} and any(slots):
             result.add(name)
     return result
-
-
-def _is_between_walls(known: Known, one: str, other: str) -> bool:
-    """Tell whether two plane faces of a part, which look away from each other, lie on faces of another part."""
-    contacts = known.between[frozenset((one, other))]
-    normals = [
-        plane.normal
-        for each in contacts
-        if each.contact_state.is_flat and isinstance(plane := each.surfaces[each.parts.index(one)], Plane)
-    ]
-    return any(np.linalg.norm(first + second) < ACROSS for first, second in combinations(normals, 2))
 
 
 def _lie_on_each_other(known: Known, one: str, other: str, axis: Vector) -> bool:

@@ -8,6 +8,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from jaxkin.assembly.inference.stop_faces import ACROSS
+from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.part import Face, Part
 from jaxkin.geometry.pose import Vector
 from jaxkin.geometry.surfaces import Plane
@@ -48,6 +49,16 @@ def walls(found: Sequence[Looking]) -> list[tuple[Vector, float, float]]:
     plays, widths = gaps[:, None] + gaps, np.abs(places[:, None] + places)
     both = np.argwhere(np.tril(_are_opposite(normals, normals) & (plays <= MAX_SIDE_PLAY * widths), -1))
     return [(found[i][0], float(plays[i, j]), float(widths[i, j])) for i, j in both.tolist()]
+
+
+def is_in_slot(contacts: Sequence[Contact]) -> bool:
+    """Tell whether one of two parts is between walls of the other, by all contacts of the two: plane faces in contact
+    that look against each other, as on both sides of a block in a slot."""
+    first = contacts[0].parts[0] if contacts else ""
+    flat = [each for each in contacts if each.contact_state.is_flat]
+    own = [each.surfaces[each.parts.index(first)] for each in flat]
+    normals = np.array([surface.normal for surface in own if isinstance(surface, Plane)]).reshape(-1, 3)
+    return bool(_are_opposite(normals, normals).any())
 
 
 def turns(ones: Sequence[Part], others: Sequence[Part], point: Vector, axis: Vector) -> float:
