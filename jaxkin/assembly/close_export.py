@@ -44,7 +44,7 @@ def closed_export(
     described = [(each.name, *each.parts) for each in joints]
     linkage = Linkage.of(joints, structure([part.name for part in parts], described, exported.fixed))
     linkage = coupled(linkage, couplings)
-    names = [(each, number, f"{each.name}.{name}") for each in joints for number, name in enumerate(each.coordinates)]
+    names = [(each, number, name) for each in joints for number, name in enumerate(each.full_names)]
     motors = [name for each, _, name in names if {each.name, name} & {*exported.motors}]
     locked = [name for each, number, name in names if each.limits and each.limits[number] == (0.0, 0.0)]
     leaders = _leaders(exported)

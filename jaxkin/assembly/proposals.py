@@ -171,4 +171,4 @@ def _tried(mechanism: Mechanism, choice: Sequence[str], drive: Sequence[str] | N
 def _moved(mechanism: Mechanism) -> int:
     """Count the joints with freedoms that are not idle."""
     idle = {*mechanism.mobility().idle}
-    return sum(any(f"{joint.name}.{name}" not in idle for name in joint.coordinates) for joint in mechanism.all_joints)
+    return sum(not idle.issuperset(joint.full_names) for joint in mechanism.all_joints)

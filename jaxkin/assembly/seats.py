@@ -44,7 +44,7 @@ def seats_of(mechanism: Mechanism, inexact: bool, bearings: Collection[str]) -> 
         return []
     idle = {*mechanism.mobility().idle}
     owner = body_of_parts(mechanism.bodies)
-    useful = [joint.parts for joint in mechanism.all_joints if {f"{joint.name}.{c}" for c in joint.coordinates} - idle]
+    useful = [joint.parts for joint in mechanism.all_joints if {*joint.full_names} - idle]
     result = []
     for joint in mechanism.all_joints:
         flat = joint.kind in (JointKind.PRISMATIC, JointKind.PLANAR)
@@ -54,7 +54,7 @@ def seats_of(mechanism: Mechanism, inexact: bool, bearings: Collection[str]) -> 
         if joint.kind is JointKind.FIXED and joint.name in mechanism.contacts and joint.evidence:
             result.append(Inference(joint.parts, joint.evidence))
             continue
-        moved = {f"{joint.name}.{name}" for name in joint.coordinates} - idle
+        moved = {*joint.full_names} - idle
         if joint.name not in mechanism.contacts or not (flat or screwed) or moved or is_guide(mechanism, joint):
             continue
         one, other = (owner[part] for part in joint.parts)

@@ -161,7 +161,7 @@ def print_motion(motion: Motion) -> None:
             values = np.asarray(motion.coordinates[name])[closed, column]
             scale, unit = (1.0, motion.mechanism.unit) if is_length(coordinate) else (180 / np.pi, "deg")
             ends = (f"{scale * end:.3f}" for end in (values.min(), values.max())) if values.size else ("", "")
-            rows.append((f"{name}.{coordinate}", *ends, unit))
+            rows.append((joint.full_names[column], *ends, unit))
     print_table(("coordinate", "least", "greatest", "unit"), rows, numbers=(1, 2))
 
 

@@ -148,7 +148,7 @@ def driven_values(motion: Motion, name: str, what: str) -> Float[Array, " poses"
     if name in motion.inputs:  # also those of targets, which are no joints of the linkage
         return motion.inputs[name]
     joint, k = coordinate(linkage, name)
-    full = f"{linkage.joints[joint].name}.{linkage.joints[joint].coordinates[k]}"
+    full = linkage.joints[joint].full_names[k]
     if full not in motion.inputs:
         raise ValueError(f"{what}: {full!r} is not driven; name what the drive gives, {listed([*motion.inputs])}")
     return motion.inputs[full]

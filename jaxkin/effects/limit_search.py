@@ -217,4 +217,4 @@ def why_singular(mechanism: Mechanism, curve: Curve, driven: Sequence[tuple[int,
 def _full_name(mechanism: Mechanism, place: tuple[int, int]) -> str:
     """Return the name "joint.coordinate" of a coordinate."""
     joint, k = place
-    return f"{mechanism.all_joints[joint].name}.{mechanism.all_joints[joint].coordinates[k]}"
+    return mechanism.all_joints[joint].full_names[k]

@@ -193,7 +193,7 @@ def _ranges(mechanism: Mechanism, given: Mapping[str, Sequence[float]]) -> dict[
         if not (low <= slack and high >= -slack):
             raise ValueError(
                 f"the assembled pose, 0, is not in the range {low:g} to {high:g} of "
-                f"{joint.name}.{joint.coordinates[k]}: ranges count from there; assemble the mechanism within, as "
+                f"{joint.full_names[k]}: ranges count from there; assemble the mechanism within, as "
                 "mechanism.at(motion, index) does, or give another range with ranges="
             )
         found[number, k] = min(low, 0.0), max(high, 0.0)
@@ -249,7 +249,7 @@ def _limit(mechanism: Mechanism, name: str, curve: Curve, end: FoundLimit, side:
     if end.kind is LimitKind.RANGE and end.column is not None:
         joint, k = loops.columns[end.column]
         owner = joints[joint]
-        of = f"{owner.name}.{owner.coordinates[k]}"
+        of = owner.full_names[k]
         return Limit(at, end.kind, (owner.name,), f"the range of {of} ends, at {q[end.column]:.6g}", shown)
     moving, why = why_locked({index: joints[index] for index in loops.loop_group.joints}, curve, end.here)
     return Limit(at, end.kind, moving, f"{name} locks: {why}", shown)

@@ -276,6 +276,6 @@ def wrap_angles(mechanism: Mechanism, rows: Sequence[np.ndarray], driven: Contai
         for movement, own in zip(joint.movements, coordinate_ranges(joint.movements), strict=True):
             for element in MOVEMENTS[movement].elements:
                 k = own[element.coordinate]
-                name = f"{joint.name}.{joint.coordinates[k]}"
+                name = joint.full_names[k]
                 if element.kind == "rotate" and element.law is None and name not in driven and name not in tied:
                     row[first:, k] -= 2 * np.pi * np.ceil(row[first:, k] / (2 * np.pi) - 0.5)

@@ -100,6 +100,6 @@ def save_rows(names: Sequence[str], rows: Float[np.ndarray, "rows poses"], path:
 
 def save_displacements(joints: Sequence[Joint], displacements: Sequence[Float[Any, "poses _"]], path: Path) -> Path:
     """Write the displacements of all joints by `save_rows`, a column a coordinate; returns the path."""
-    names = [f"{joint.name}.{name}" for joint in joints for name in joint.coordinates]
+    names = [name for joint in joints for name in joint.full_names]
     rows = np.concatenate([np.asarray(each) for each in displacements], axis=1)
     return save_rows(names, rows.T, path)

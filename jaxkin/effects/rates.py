@@ -115,10 +115,10 @@ class Rates:
         closed, mechanism = np.asarray(self.closed), self.motion.mechanism
         per = "time" if self.order == 1 else f"time^{self.order}"
         names, units, rows = [], [], []
-        for (joint, rates), made in zip(self.coordinates.items(), mechanism.joints.values(), strict=True):
-            for column, coordinate in enumerate(made.coordinates):
+        for rates, joint in zip(self.coordinates.values(), mechanism.joints.values(), strict=True):
+            names += joint.full_names
+            for column, coordinate in enumerate(joint.coordinates):
                 unit = (mechanism.unit or "length") if is_length(coordinate) else "rad"
-                names.append(f"{joint}.{coordinate}")
                 units.append(f"{unit}/{per}")
                 rows.append(np.where(closed, np.asarray(rates)[:, column], np.nan))
         return names, units, np.stack(rows) if rows else np.zeros((0, len(closed)))

@@ -134,7 +134,7 @@ class Study:
         """The driven displacements by coordinate, in radians and in the unit of the mechanism."""
         if not self.ranges:
             joints = self.mechanism.all_joints
-            names = ", ".join(f"{joint.name}.{c}" for joint in joints for c in joint.coordinates)
+            names = ", ".join(name for joint in joints for name in joint.full_names)
             drivable = wheels_last(self.mechanism)
             enough = f"; {listed(drivable)} would be enough" if drivable else ""
             raise ValueError(

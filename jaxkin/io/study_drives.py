@@ -43,7 +43,7 @@ def useful_coordinates(mechanism: Mechanism) -> list[str]:
     """Name the coordinates in which more shows than idle motions, and parts that only spin."""
     found = mechanism.mobility()
     joints = [joint for joint in mechanism.all_joints if not {*joint.parts} & {*found.spinning}]
-    names = (f"{joint.name}.{coordinate}" for joint in joints for coordinate in joint.coordinates)
+    names = (name for joint in joints for name in joint.full_names)
     return [name for name in names if name not in found.idle]
 
 
@@ -76,9 +76,9 @@ def _motors(mechanism: Mechanism, count: int) -> tuple[str, ...]:
 def _locked(mechanism: Mechanism) -> set[str]:
     """Name the coordinates whose two limits are equal."""
     return {
-        f"{joint.name}.{coordinate}"
+        name
         for joint in mechanism.all_joints
-        for coordinate, (low, high) in zip(joint.coordinates, joint.limits, strict=bool(joint.limits))
+        for name, (low, high) in zip(joint.full_names, joint.limits, strict=bool(joint.limits))
         if low == high
     }
 

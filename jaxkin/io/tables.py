@@ -55,8 +55,8 @@ def write_table(motion: Motion, path: Path) -> None:
     for name, values in motion.inputs.items():
         columns[f"input:{_heading(name, motion.mechanism.unit)}"] = np.asarray(values)
     for name, joint in motion.mechanism.joints.items():
-        for index, coordinate in enumerate(joint.coordinates):
-            heading = _heading(f"{name}.{coordinate}", motion.mechanism.unit)
+        for index, full_name in enumerate(joint.full_names):
+            heading = _heading(full_name, motion.mechanism.unit)
             columns[heading] = np.asarray(motion.coordinates[name])[:, index]
     columns["status"] = np.array([status.name for status in Status])[np.asarray(motion.status)]
     columns["residual"] = np.asarray(motion.residual)

@@ -78,6 +78,11 @@ class Joint:
         return tuple(result)
 
     @property
+    def full_names(self) -> tuple[str, ...]:
+        """Full names "joint.coordinate" of the coordinates, as inputs and results name them; in the same order."""
+        return tuple(f"{self.name}.{coordinate}" for coordinate in self.coordinates)
+
+    @property
     def driven_together(self) -> tuple[tuple[int, ...], ...]:
         """Indices of the coordinates in tuples that belong together: the angles of a ball are one turn."""
         groups: list[tuple[int, ...]] = []

@@ -49,7 +49,7 @@ def closure_equations(linkage: Linkage, coordinates: Mapping[str, object]) -> Cl
             raise ValueError(f"there is no joint {name!r}{nearest(str(name), names)}")
     rows = [_of_joint(joint, given.get(joint.name, np.zeros(joint.freedoms))) for joint in linkage.joints]
     residual, jacobian = _equations(linkage.structure, linkage.joints, jnp.concatenate([jnp.zeros(0), *rows]))
-    columns = tuple(f"{joint.name}.{name}" for joint in linkage.joints for name in joint.coordinates)
+    columns = tuple(name for joint in linkage.joints for name in joint.full_names)
     return ClosureEquations(residual, jacobian, columns)
 
 

@@ -53,7 +53,7 @@ def coordinates(linkage: Linkage, keys: Sequence[str]) -> dict[str, tuple[int, i
     driven: dict[str, tuple[int, int]] = {}
     for key in keys:
         joint, index = coordinate(linkage, key)
-        name = f"{linkage.joints[joint].name}.{linkage.joints[joint].coordinates[index]}"
+        name = linkage.joints[joint].full_names[index]
         if name in driven:
             raise ValueError(f"{name!r} is named twice; give each coordinate once")
         driven[name] = joint, index
@@ -108,7 +108,7 @@ def coordinate(linkage: Linkage, key: str) -> tuple[int, int]:
     if key in names:
         joint = linkage.joints[names.index(key)]
         if joint.freedoms != 1:
-            choices = [repr(f"{key}.{name}") for name in joint.coordinates]
+            choices = [repr(name) for name in joint.full_names]
             said = f"has {joint.freedoms} coordinates: write {' or '.join(choices)}"
             what = said if choices else "has no coordinate to drive"
             raise ValueError(f"joint {key!r} ({joint.kind}) {what}")

@@ -145,7 +145,7 @@ class ClosedLoops:
         self.units = np.array([length if is_length(name) else 1.0 for name in names])
         """For each column the factor from the scaled coordinate to that of the mechanism: 1 for angles."""
         self.couplings = [
-            self._scaled(couplings[number], [f"{every[j].name}.{every[j].coordinates[k]}" for j, k in self.columns])
+            self._scaled(couplings[number], [every[j].full_names[k] for j, k in self.columns])
             for number in loop_group.couplings
         ]
         self.coincide = all(joint.coincides for joint in joints.values()) and not any(

@@ -129,8 +129,7 @@ def excesses(motion: Motion) -> dict[str, Float[np.ndarray, " poses"]]:
         over = np.maximum(q - each.high, 0.0) - np.maximum(each.low - q, 0.0)
         over = np.where(on_branch & (np.abs(over) > slack), over, 0.0)
         if over.any():
-            joint = joints[each.joint]
-            found[f"{joint.name}.{joint.coordinates[each.coordinate]}"] = over
+            found[joints[each.joint].full_names[each.coordinate]] = over
     return found
 
 
@@ -138,7 +137,7 @@ def breaches(motion: Motion) -> tuple[Breach, ...]:
     """Collect the coordinates that are beyond their limits, in the order of the mechanism."""
     joints, over, found = motion.mechanism.all_joints, motion.beyond_limits, []
     for each in bounds_of(joints) if over else ():
-        name = f"{joints[each.joint].name}.{joints[each.joint].coordinates[each.coordinate]}"
+        name = joints[each.joint].full_names[each.coordinate]
         if name in over:
             at = int(np.argmax(np.abs(over[name])))
             worst = float(motion.displacements[each.joint][at, each.coordinate])
@@ -179,8 +178,7 @@ def beyond_as_assembled(joints: Sequence[Joint]) -> str:
     """Name the coordinates whose limits exclude the assembled pose, with these limits; empty where none do."""
     return listed(
         [
-            f"{joints[each.joint].name}.{joints[each.joint].coordinates[each.coordinate]}, {each.low:.4g} to "
-            f"{each.high:.4g}"
+            f"{joints[each.joint].full_names[each.coordinate]}, {each.low:.4g} to {each.high:.4g}"
             for each in bounds_of(joints)
             if max(each.low, -each.high) > rounding(joints, each.length)
         ]

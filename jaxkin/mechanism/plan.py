@@ -126,9 +126,9 @@ def _at_rest(linkage: Linkage, found: DrivePlan) -> list[str]:
     for loop_group in found.loop_groups:
         own = set(loop_group.columns)
         resting = [
-            f"{joint.name}.{name}"
-            for index, joint in ((index, linkage.joints[index]) for index in loop_group.members.joints)
-            for k, name in enumerate(joint.coordinates)
+            name
+            for index in loop_group.members.joints
+            for k, name in enumerate(linkage.joints[index].full_names)
             if (index, k) not in own
         ]
         if resting:

@@ -161,8 +161,7 @@ def _method(loop_group: DrivenLoopGroup, number: int) -> tuple[str, str]:
 
 def _names(linkage: Linkage, loop_group: DrivenLoopGroup, block: EquationBlock) -> tuple[str, ...]:
     places = (loop_group.columns[column] for column in block.columns)
-    joints = linkage.joints
-    return tuple(f"{joints[joint].name}.{joints[joint].coordinates[k]}" for joint, k in places)
+    return tuple(linkage.joints[joint].full_names[k] for joint, k in places)
 
 
 def _subgroup(loop_group: DrivenLoopGroup, group: Group, freedoms: LoopFreedoms) -> Subgroup:

@@ -163,8 +163,7 @@ def _collect(
 
 def _first(mechanism: Mechanism) -> tuple[str, ...]:
     """Name all coordinates of the first joint that moves, for a motion of a mechanism without motors."""
-    joint = next(joint for joint in mechanism.all_joints if joint.freedoms)
-    return tuple(f"{joint.name}.{name}" for name in joint.coordinates)
+    return next(joint.full_names for joint in mechanism.all_joints if joint.freedoms)
 
 
 def _given(mechanism: Mechanism, given: Mapping[str, Any]) -> dict[str, Float[Array | np.ndarray, "poses _"]]:

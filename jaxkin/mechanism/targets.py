@@ -109,7 +109,7 @@ def names_with_targets(mechanism: Mechanism, keys: Iterable[Key]) -> tuple[Mecha
     for key in keys:
         if isinstance(key, Target):
             joint = found.joints[key.joint]
-            names += [f"{joint.name}.{joint.coordinates[k]}" for k in _driven(joint, key)]
+            names += [joint.full_names[k] for k in _driven(joint, key)]
         else:
             names.append(key)
     return found, names
@@ -214,7 +214,7 @@ def _coordinates(joint: Joint, target: Target, values: Any, size: float) -> dict
         rows = _in_plane(target, axes, moved, turned, size, xp)
     else:
         rows = [*moved.T, *(xp.unwrap(angle) for angle in _angles(turned, xp))]
-    return {f"{joint.name}.{joint.coordinates[k]}": rows[k] for k in _driven(joint, target)}
+    return {joint.full_names[k]: rows[k] for k in _driven(joint, target)}
 
 
 def check_rigid(target: Target, turned: Any, given: Any) -> None:

@@ -240,7 +240,7 @@ class IdleMotions:
             tuple(sorted((part for body in row.moving for part in rows_of[body]), key=order)),
             kind,
             tuple(sorted(set(row.resting) - self._left_out, key=order)),
-            tuple(f"{joints[joint].name}.{joints[joint].coordinates[k]}" for joint, k in shows),
+            tuple(joints[joint].full_names[k] for joint, k in shows),
         )
 
 

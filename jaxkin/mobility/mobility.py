@@ -97,10 +97,10 @@ def outside_loops(linkage: Linkage) -> list[str]:
     """Name the coordinates of joints outside of loops, "joint.coordinate", without those of parts that only spin."""
     spinning, in_loops = {part.name for part in linkage.spinning}, _in_loops(linkage)
     return [
-        f"{joint.name}.{coordinate}"
+        name
         for index, joint in enumerate(linkage.joints)
         if index not in in_loops and not spinning & {*joint.parts}
-        for coordinate in joint.coordinates
+        for name in joint.full_names
     ]
 
 
@@ -138,7 +138,7 @@ def _of_closed(linkage: Linkage) -> Mobility:
 def names(linkage: Linkage, found: LoopFreedoms, columns: Iterable[int]) -> list[str]:
     """Return the full names "joint.coordinate" of these columns."""
     chosen = (found.columns[column] for column in columns)
-    return [f"{linkage.joints[joint].name}.{linkage.joints[joint].coordinates[k]}" for joint, k in chosen]
+    return [linkage.joints[joint].full_names[k] for joint, k in chosen]
 
 
 def moving_columns(found: LoopFreedoms, motions: Float[np.ndarray, "n columns"]) -> list[int]:

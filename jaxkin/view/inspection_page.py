@@ -146,7 +146,7 @@ def _joint(joint: Joint, mechanism: Mechanism, index: Mapping[str, int]) -> dict
     return {
         "name": joint.name,
         "kind": str(joint.kind),
-        "coordinates": [f"{joint.name}.{coordinate}" for coordinate in joint.coordinates],
+        "coordinates": list(joint.full_names),
         "parts": [index[part] for part in joint.parts],
         "evidence": f"{evidence or ''}" + (f" (Doubtful: {evidence.doubt})" if evidence and evidence.doubt else ""),
         "sizes": [[name, f"{value:.4g}"] for name, value in (evidence.sizes if evidence else ())],

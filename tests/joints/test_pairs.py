@@ -37,6 +37,13 @@ def test_movements(joint, values, point, expected):
     np.testing.assert_allclose(moved(joint, values, point), expected, atol=1e-15)
 
 
+def test_full_names_are_the_inputs_of_a_sweep():
+    joint = jk.spherical("ball", "base", "part", point=(0, 0, 0))
+    assert joint.full_names == ("ball.theta", "ball.phi", "ball.psi")
+    motion = jk.Mechanism.build(fixed=["base"], joints=[joint]).sweep({name: [0.0] for name in joint.full_names})
+    assert tuple(motion.inputs) == joint.full_names
+
+
 def test_a_planar_pair_moves_in_its_plane():
     joint = jk.planar("j", "base", "part", normal=(1, 2, 2), point=(0, 0, 4))
     end = moved(joint, [0.3, -0.7, 1.1], (5, 6, 7))

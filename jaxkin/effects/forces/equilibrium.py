@@ -223,9 +223,9 @@ def _has_others(mechanism: Mechanism, driven: int) -> bool:
 def _out_of_balance(found: Reactions, most: float) -> dict[str, Inputs]:
     """Find the loads that hold coordinates without a drive, zero where they are at most `most`; none where all are."""
     loads = {
-        f"{name}.{coordinate}": np.abs(np.nan_to_num(np.asarray(found.held[name], float)[:, k]))
+        full_name: np.abs(np.nan_to_num(np.asarray(found.held[name], float)[:, k]))
         for name, joint in found.motion.mechanism.joints.items()
-        for k, coordinate in enumerate(joint.coordinates)
+        for k, full_name in enumerate(joint.full_names)
     }
     return {name: np.where(load > most, load, 0.0) for name, load in loads.items() if np.any(load > most)}
 

@@ -120,11 +120,11 @@ class Reactions:
         lever = float(Scale.of(self.motion.mechanism.linkage).size) * METRES[self.motion.mechanism.unit]
         found = []
         for name, joint in self.motion.mechanism.joints.items():
-            for k, own in enumerate(joint.coordinates):
+            for k, full_name in enumerate(joint.full_names):
                 load = np.abs(np.asarray(self.held[name][:, k]))
-                if np.nanmax(load) > HELD * most * (1.0 if is_length(own) else lever):
-                    unit = units_of(self.motion, f"{name}.{own}")[0]
-                    found.append(f"  {name}.{own} has no drive: up to {np.nanmax(load):.3g} {unit} would hold it")
+                if np.nanmax(load) > HELD * most * (1.0 if is_length(joint.coordinates[k]) else lever):
+                    unit = units_of(self.motion, full_name)[0]
+                    found.append(f"  {full_name} has no drive: up to {np.nanmax(load):.3g} {unit} would hold it")
         more = [f"  and {len(found) - MAX_HELD} more without a drive: see .held"] if len(found) > MAX_HELD else []
         return [*found[:MAX_HELD], *more]
 

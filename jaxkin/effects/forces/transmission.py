@@ -97,7 +97,7 @@ def transmission(motion: Motion, output: str, *, joint: str | None = None) -> Tr
     (name,) = motion.inputs
     number, index = coordinate(mechanism.linkage, output)
     own = mechanism.all_joints[number]
-    full = f"{own.name}.{own.coordinates[index]}"
+    full = own.full_names[index]
     if full == name:
         raise ValueError(f"{full!r} is the input itself; name another coordinate")
     part = own.parts[0] if own.parts[1] in mechanism.fixed else own.parts[1]

@@ -156,7 +156,7 @@ def _drivable(mechanism: Mechanism) -> Sequence[str]:
     """Find the coordinates that determine the motion together, or all where the assembled pose is open."""
     if opening(mechanism.linkage, mechanism.unit) is None:
         return mechanism.mobility().drivable
-    return [f"{joint.name}.{name}" for joint in mechanism.all_joints for name in joint.coordinates]
+    return [name for joint in mechanism.all_joints for name in joint.full_names]
 
 
 def _motion(

@@ -37,7 +37,7 @@ class Problem:
         linkage = mechanism.linkage
         self.linkage, self.aims, self.size = linkage, aims, extent(mechanism)
         self.places = [(k, c) for k, joint in enumerate(linkage.joints) for c in range(joint.freedoms)]
-        self.names = tuple(f"{linkage.joints[k].name}.{linkage.joints[k].coordinates[c]}" for k, c in self.places)
+        self.names = tuple(name for joint in linkage.joints for name in joint.full_names)
         self.lengths = np.array([is_length(name.rpartition(".")[2]) for name in self.names], bool)
         self.units = np.where(self.lengths, self.size, 1.0)
         self.turns = np.array(_turns(linkage, aims), bool)
