@@ -27,7 +27,7 @@ from jaxkin.joints.joint import Joint
 from jaxkin.linkage.coordinates import resolve
 from jaxkin.linkage.joint_motion import transforms
 from jaxkin.mechanism.collect import nan_where_not_finite
-from jaxkin.mechanism.known_motion import Inputs, KnownDrive, KnownMotion, derivatives, follow, known_motion
+from jaxkin.mechanism.known_motion import Inputs, KnownDrive, KnownMotion, Rows, derivatives, follow, known_motion
 from jaxkin.mechanism.motion import Motion, as_point
 from jaxkin.mechanism.singularity import singular_report
 from jaxkin.solve.execution.compiler import whole_program
@@ -36,9 +36,6 @@ from jaxkin.topology.structure import Structure
 
 NAMES = {1: "Velocities", 2: "Accelerations", 3: "Jerks"}
 """Order of a derivative with respect to time -> its name."""
-
-Rows = tuple[Float[Array, "poses _"], ...]
-"""For each joint of `mechanism.joints` the rates of its displacements, radians or lengths per time."""
 
 
 @dataclass(frozen=True, eq=False)

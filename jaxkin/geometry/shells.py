@@ -5,14 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Float
 
 from jaxkin.geometry.components import components, grouped
+from jaxkin.geometry.facets import Rows
 from jaxkin.geometry.pose import Points
 from jaxkin.geometry.weld import Corners, Welded
-
-Rows = Int[np.ndarray, "_"]
-"""Indices of triangles."""
 
 _SIDE_SAMPLES = 200
 """Largest number of triangles at which `wrong_side` checks the two sides."""

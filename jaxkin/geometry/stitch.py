@@ -11,12 +11,13 @@ from itertools import pairwise
 import numpy as np
 from jaxtyping import Float, Int
 
-Rows = Int[np.ndarray, "_ 3"]
+Triples = Int[np.ndarray, "_ 3"]
+"""Triangles by the indices of their corners."""
 
 
 def stitched(
-    points: Float[np.ndarray, "points 3"], triangles: Rows, open_edges: Int[np.ndarray, "edges 2"], tolerance: float
-) -> Rows:
+    points: Float[np.ndarray, "points 3"], triangles: Triples, open_edges: Int[np.ndarray, "edges 2"], tolerance: float
+) -> Triples:
     """Make triangles whose T-junctions are gone; `open_edges` are those of one triangle only, in its direction.
 
     A corner in the middle of a straight piece of a rim, within `tolerance` (a length), is moved along it to the next
@@ -36,7 +37,7 @@ def stitched(
 class _Stitching:
     """Triangles that change, by number, and which of them are at each corner of an open edge."""
 
-    def __init__(self, points: np.ndarray, triangles: Rows, open_edges: np.ndarray, tolerance: float) -> None:
+    def __init__(self, points: np.ndarray, triangles: Triples, open_edges: np.ndarray, tolerance: float) -> None:
         self.points = points
         self.triangles: list[list[int]] = triangles.tolist()
         self.tolerance = tolerance

@@ -13,12 +13,10 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from jaxkin.geometry.components import components
-from jaxkin.geometry.stitch import stitched
+from jaxkin.geometry.stitch import Triples, stitched
 
 Corners = Float[np.ndarray, "_ 3 3"]
 """Corners of triangles: [triangle, corner, coordinate]."""
-Rows = Int[np.ndarray, "_ 3"]
-"""Triangles by the indices of their corners."""
 
 _MIN_WEDGE = 1e-2
 """Smallest angle, radians, of a wedge of material between two triangles at an edge.
@@ -32,7 +30,7 @@ class Welded:
 
     points: Float[np.ndarray, "points 3"]
     """The corners, each point once."""
-    triangles: Rows
+    triangles: Triples
     """The triangles, by indices into `points`."""
     pairs: Int[np.ndarray, "pairs 2"]
     """The two triangles at each edge that two triangles share."""
@@ -58,7 +56,7 @@ def weld(corners: Corners, tolerance: float) -> Welded:
     return Welded(points, triangles, pairs, lone)
 
 
-def pair_edges(points: np.ndarray, triangles: Rows) -> tuple[np.ndarray, np.ndarray]:
+def pair_edges(points: np.ndarray, triangles: Triples) -> tuple[np.ndarray, np.ndarray]:
     """Find the pairs of triangles that share an edge, which they run along in opposite directions.
 
     Where more than two triangles meet at an edge, as where two solids touch, two triangles are a pair if they bound one
@@ -88,7 +86,7 @@ def pair_edges(points: np.ndarray, triangles: Rows) -> tuple[np.ndarray, np.ndar
 
 
 def _wedges(
-    points: np.ndarray, triangles: Rows, owner: np.ndarray, side: np.ndarray, forward: np.ndarray, body: np.ndarray
+    points: np.ndarray, triangles: Triples, owner: np.ndarray, side: np.ndarray, forward: np.ndarray, body: np.ndarray
 ):
     """Pair the triangles around one edge that bound one wedge of material.
 
@@ -122,7 +120,7 @@ def _wedges(
     return np.array(found, int).reshape(-1, 2)
 
 
-def _proper(triangles: Rows) -> Rows:
+def _proper(triangles: Triples) -> Triples:
     """Leave out triangles two of whose corners are the same point."""
     return triangles[np.all(triangles != np.roll(triangles, 1, axis=1), axis=1)]
 

@@ -116,7 +116,7 @@ def cam(
         return _flat(name, (part1, part2), plane, curve, contact_at(curve, found), at, limits)
     contact, size = contact_at(curve, nearest_to(curve, at)), 0.0
     if radius is not None:
-        size = _radius(name, radius)
+        size = positive_radius(name, radius, "a roller")
         size = size if contact.away(at)[1] >= 0 else -size
     return _follows(name, (part1, part2), JointKind.CAM, plane, curve, contact, size, point2, limits)
 
@@ -189,9 +189,10 @@ def curve_on_curve(
     return _with_ends(made, limits)
 
 
-def _radius(name: str, radius: Any) -> float:
+def positive_radius(name: str, radius: Any, of: str) -> float:
+    """Return the radius `of` what rolls, such as "a roller"; ValueError for what is no positive number."""
     if isinstance(radius, bool) or not isinstance(radius, int | float | np.number) or not 0 < radius < np.inf:
-        raise ValueError(f"joint {name!r}: the radius of a roller must be a positive number, got {radius!r}")
+        raise ValueError(f"joint {name!r}: the radius of {of} must be a positive number, got {radius!r}")
     return float(radius)
 
 

@@ -20,7 +20,7 @@ from jaxkin._traced import traced
 from jaxkin.geometry.curves import ROUNDING
 from jaxkin.geometry.pose import inverse
 from jaxkin.joints.axis_frame import Triple, axis_frame
-from jaxkin.joints.curve_joints import TOUCHES
+from jaxkin.joints.curve_joints import TOUCHES, positive_radius
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
@@ -128,9 +128,8 @@ def point_on_surface(
     given = (inverse(plane.pose) @ np.array([*centre, 1.0]))[:3]
     contact, height = nearest_on(placed, given), None
     if radius is not None:
-        if isinstance(radius, bool) or not isinstance(radius, int | float | np.number) or not 0 < radius < np.inf:
-            raise ValueError(f"joint {name!r}: the radius of a ball must be a positive number, got {radius!r}")
-        height = np.asarray(float(radius) if contact.normal @ (given - contact.point) >= 0 else -float(radius))
+        size = positive_radius(name, radius, "a ball")
+        height = np.asarray(size if contact.normal @ (given - contact.point) >= 0 else -size)
     at = contact.point + (0.0 if height is None else float(height)) * contact.normal
     misfit = float(np.linalg.norm(given - at))
     beside = np.eye(4)

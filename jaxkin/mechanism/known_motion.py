@@ -32,7 +32,10 @@ if TYPE_CHECKING:
 
 Inputs = dict[str, Float[Array | np.ndarray, " poses"]]
 """By "joint.coordinate" the displacements of the driven coordinates, or their derivatives of one order by time."""
-Follow = Callable[[Inputs], tuple[Float[Array, "poses _"], ...]]
+Rows = tuple[Float[Array, "poses _"], ...]
+"""For each joint of `mechanism.joints` an array with a row a pose: displacements of its coordinates, radians or lengths
+in the unit of the mechanism, their derivatives, or what the joint transmits."""
+Follow = Callable[[Inputs], Rows]
 """The displacements of all joints as a function of the inputs: see `follow`."""
 
 
@@ -63,7 +66,7 @@ class KnownMotion(NamedTuple):
 
     numbers: tuple[Joints | Axes, ...]
     """Of every loop group of the `KnownDrive`: axes where its derivatives are those of formulas, else joints."""
-    displacements: tuple[Float[Array, "poses _"], ...]
+    displacements: Rows
     status: Int[Array, " poses"]
 
 
@@ -103,7 +106,7 @@ def follow(drive: KnownDrive, known: KnownMotion) -> Follow:
     finite = known.status != Status.NONFINITE.value
     at = tuple(jnp.where(finite[:, None], lax.stop_gradient(rows), 0.0) for rows in known.displacements)
 
-    def displacements(inputs: Inputs) -> tuple[Float[Array, "poses _"], ...]:
+    def displacements(inputs: Inputs) -> Rows:
         columns = {}
         for name, joint, k in drive.driven:
             given = inputs[name]

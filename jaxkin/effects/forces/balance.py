@@ -32,7 +32,6 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from jaxkin.effects.forces.balance_equations import equations, gradient_by_chords, hessian, stacked, tree_of
-from jaxkin.effects.forces.changes import Rows
 from jaxkin.effects.forces.joint_balance import JointBalance, Wrenches
 from jaxkin.effects.forces.screws import Places, Scale, Twist, cross
 from jaxkin.geometry.chains import coordinate_ranges
@@ -40,11 +39,14 @@ from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.linkage import Linkage
+from jaxkin.mechanism.known_motion import Rows
 from jaxkin.solve.linear.constrained import column_sums, minimise_constrained
 from jaxkin.solve.range.groups import in_groups
 
 GROUP = 512
-"""Poses that are solved at once: the matrices of so many stay in the cache."""
+"""Poses of a group, which is placed and solved before the next one: its matrices stay in the cache. Reactions in 10,000
+poses of a four-bar, without the derivatives of the motion, took 14 ms of a processor in groups of 128, 10 of 512, 12 of
+1,024, and 15 where all poses were placed before they were solved."""
 
 
 class Balance(NamedTuple):

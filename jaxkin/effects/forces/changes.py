@@ -9,12 +9,10 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from jaxkin.mechanism.known_motion import Follow, Inputs, KnownDrive, KnownMotion, derivatives, follow
+from jaxkin.mechanism.known_motion import Follow, Inputs, KnownDrive, KnownMotion, Rows, derivatives, follow
 from jaxkin.solve.execution.compiler import whole_program
 from jaxkin.topology.components import connected
 
-Rows = tuple[Float[Array, "poses _"], ...]
-"""Of all joints, in the order of `mechanism.joints`: radians, or the unit of the mechanism."""
 ByCoordinate = dict[tuple[int, int], Float[Array, " poses"]]
 """One number a pose for each of some coordinates (joint, coordinate)."""
 ORDER = 2

@@ -16,7 +16,7 @@ from jaxtyping import Array, Float, Int
 
 from jaxkin._names import listed
 from jaxkin.effects.forces.balance import tree_wrenches
-from jaxkin.effects.forces.changes import ORDER, ByCoordinate, Changes, Rows, changes, rows_of
+from jaxkin.effects.forces.changes import ORDER, ByCoordinate, Changes, changes, rows_of
 from jaxkin.effects.forces.friction import friction
 from jaxkin.effects.forces.friction_result import Friction
 from jaxkin.effects.forces.given import Applied
@@ -43,7 +43,7 @@ from jaxkin.effects.forces.wrenches import (
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.units import METRES
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.mechanism.known_motion import Inputs, KnownDrive, KnownMotion, known_motion
+from jaxkin.mechanism.known_motion import Inputs, KnownDrive, KnownMotion, Rows, known_motion
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.singularity import singular_report
 from jaxkin.mobility.infeasible_drive import resting_freedoms

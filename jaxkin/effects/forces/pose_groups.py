@@ -8,13 +8,10 @@ from typing import Any
 
 import jax.numpy as jnp
 
+from jaxkin.effects.forces.balance import GROUP
 from jaxkin.effects.forces.given import rows_per_pose
 from jaxkin.effects.forces.wrenches import ActingNumbers
 from jaxkin.solve.range.groups import in_groups
-
-GROUP = 512
-"""Poses of a group. Reactions in 10,000 poses of a four-bar, without the derivatives of the motion, took 14 ms of a
-processor in groups of 128, 10 of 512, 12 of 1,024, and 15 where all poses were placed before they were solved."""
 
 
 def by_groups(function: Callable[[Any, ActingNumbers], Any], given: Any, acting: ActingNumbers) -> Any:

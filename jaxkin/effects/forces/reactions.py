@@ -43,7 +43,7 @@ from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.units import METRES
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.mechanism.known_motion import Inputs, KnownDrive, known_motion
+from jaxkin.mechanism.known_motion import Inputs, KnownDrive, Rows, known_motion
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.singularity import singular_report
 from jaxkin.solve.execution.compiler import whole_program
@@ -204,9 +204,6 @@ def reactions(
 def _nan_where(locked: Array, rows: Array) -> Array:
     """Set the rows of the `locked` poses to NaN."""
     return jnp.where(locked.reshape(-1, *[1] * (rows.ndim - 1)), jnp.nan, rows)
-
-
-Rows = tuple[Float[Array, "poses _"], ...]
 
 
 @partial(whole_program, static=(0, 1))

@@ -11,10 +11,9 @@ from jaxtyping import Float
 
 from jaxkin._traced import traced
 from jaxkin.effects.forces.balance import Balance, balance
-from jaxkin.effects.forces.changes import Rows
 from jaxkin.effects.forces.screws import places
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.mechanism.known_motion import known_motion
+from jaxkin.mechanism.known_motion import Rows, known_motion
 from jaxkin.mechanism.motion import Motion
 from jaxkin.solve.execution.compiler import whole_program
 

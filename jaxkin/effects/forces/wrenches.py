@@ -17,7 +17,7 @@ from jaxtyping import Array, Float
 from jaxkin._arguments import check_motion, numbers, several
 from jaxkin._names import nearest
 from jaxkin._traced import traced
-from jaxkin.effects.forces.changes import Changes, Rows
+from jaxkin.effects.forces.changes import Changes
 from jaxkin.effects.forces.friction_of import check_friction
 from jaxkin.effects.forces.given import Applied, Force, JointFriction, JointLoad, Spring, Torque, rows_per_pose
 from jaxkin.effects.forces.masses import Masses
@@ -27,7 +27,7 @@ from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.units import METRES
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.mechanism.known_motion import Inputs
+from jaxkin.mechanism.known_motion import Inputs, Rows
 from jaxkin.mechanism.motion import Motion
 from jaxkin.solve.execution.compiler import whole_program
 

@@ -3,6 +3,7 @@
 | module | loop | unknown coordinates |
 |---|---|---|
 | `complex_numbers`, `coordinate` | | turns as complex numbers; a coordinate known as a number or as a turn |
+| `vectors` | | products of vectors of space, and their turns about axes |
 | `equations` | A cos x + B sin x = C; (s + b)^2 = c | one angle; one displacement |
 | `planar_dyad` | planar, of turns R and slides P: RRR; RRP, RPR, PRR; RPP, PRP, PPR | three |
 | `planar_derivative` | the same | their derivatives, by the screws of a pose |

@@ -10,7 +10,7 @@ from jaxkin.solve.closed_form.assembled_axes import Axes
 from jaxkin.solve.closed_form.complex_numbers import Complex, scale
 from jaxkin.solve.closed_form.coordinate import Coordinate, Coordinates
 from jaxkin.solve.closed_form.planar_dyad import PlanarDisplacement, about, compose
-from jaxkin.solve.closed_form.spherical_triangle import Vector, rotate
+from jaxkin.solve.closed_form.vectors import Vector, rotate
 from jaxkin.solve.system.chain_tables import chain_tables
 from jaxkin.solve.system.loop_system import LoopSystem
 

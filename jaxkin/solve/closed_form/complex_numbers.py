@@ -19,6 +19,16 @@ def add(*vectors: Complex) -> Complex:
     return Complex(sum(v.real for v in vectors), sum(v.imag for v in vectors))
 
 
+def subtract(one: Complex, other: Complex) -> Complex:
+    """Subtract the second vector from the first."""
+    return Complex(one.real - other.real, one.imag - other.imag)
+
+
+def cross(one: Complex, other: Complex) -> Number:
+    """Compute the cross product of two vectors, a number."""
+    return one.real * other.imag - one.imag * other.real
+
+
 def times(*factors: Complex) -> Complex:
     """Multiply complex numbers."""
     first, *rest = factors

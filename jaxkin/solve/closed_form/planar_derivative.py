@@ -27,7 +27,7 @@ from jaxkin.geometry.trig import cos_sin
 from jaxkin.solve.closed_form.arithmetic import Number
 from jaxkin.solve.closed_form.assembled_axes import Axes
 from jaxkin.solve.closed_form.chain_motions import moving_rows, planar_place
-from jaxkin.solve.closed_form.complex_numbers import Complex, add, scale, times
+from jaxkin.solve.closed_form.complex_numbers import Complex, add, cross, scale, subtract, times
 from jaxkin.solve.closed_form.group_formulas import GroupFormula, group_formulas
 from jaxkin.solve.system.chain_tables import chain_tables
 from jaxkin.solve.system.loop_system import LoopSystem
@@ -104,9 +104,8 @@ def _twists(
             centre = add(shift, times(rotation, place))
             screws[row] = _Screw(True, Complex(centre.imag, -centre.real))
             turned = times(rotation, Complex(cos, sense * sin))
-            by.append(Complex(rotation.real - turned.real, rotation.imag - turned.imag))
-            carried = times(turned, place)
-            rotation, shift = turned, Complex(centre.real - carried.real, centre.imag - carried.imag)
+            by.append(subtract(rotation, turned))
+            rotation, shift = turned, subtract(centre, times(turned, place))
         else:
             along = times(rotation, place)
             slide = sense * rows[column]
@@ -137,11 +136,11 @@ def _closing_rates(unknowns: Sequence[_Screw], turn: Row, velocity: Complex) -> 
     pivot = unknowns[last].velocity
     first, second = (k for k in range(3) if k != last)
     one, other = (_beside(unknowns[k], pivot) for k in (first, second))
-    wanted = Complex(turn * pivot.real - velocity.real, turn * pivot.imag - velocity.imag)
-    area = _cross(one, other)
+    wanted = subtract(scale(turn, pivot), velocity)
+    area = cross(one, other)
     regular = area != 0
     share = jnp.where(regular, 1.0, 0.0) / jnp.where(regular, area, 1.0)
-    rates = {first: _cross(wanted, other) * share, second: _cross(one, wanted) * share}
+    rates = {first: cross(wanted, other) * share, second: cross(one, wanted) * share}
     left = -jnp.where(regular, turn, 0.0)
     for k, rate in tuple(rates.items()):
         left = left - rate if unknowns[k].turns else left
@@ -151,10 +150,4 @@ def _closing_rates(unknowns: Sequence[_Screw], turn: Row, velocity: Complex) -> 
 
 def _beside(screw: _Screw, pivot: Complex) -> Complex:
     """Compute the velocity of a screw while the pivot turns back as much."""
-    moved = screw.velocity
-    return Complex(moved.real - pivot.real, moved.imag - pivot.imag) if screw.turns else moved
-
-
-def _cross(one: Complex, other: Complex) -> Number:
-    """Compute the cross product of two vectors of the plane."""
-    return one.real * other.imag - one.imag * other.real
+    return subtract(screw.velocity, pivot) if screw.turns else screw.velocity

@@ -21,7 +21,9 @@ from jaxkin.solve.closed_form.complex_numbers import (
     add,
     argument,
     conj,
+    cross,
     square,
+    subtract,
     times,
     unit,
 )
@@ -71,8 +73,7 @@ def compose(first: PlanarDisplacement, then: PlanarDisplacement) -> PlanarDispla
 
 def about(centre: Complex, turn: Complex) -> PlanarDisplacement:
     """Make the turn about a point."""
-    moved = times(turn, centre)
-    return PlanarDisplacement(turn, Complex(centre.real - moved.real, centre.imag - moved.imag))
+    return PlanarDisplacement(turn, subtract(centre, times(turn, centre)))
 
 
 def planar_dyad(kinds: str, places: Sequence[Complex], between: Sequence[PlanarDisplacement], sign: Number) -> Dyad:
@@ -120,7 +121,7 @@ def _links(
         if then == "R":
             shift = add(shift, times(turn, places[(first + k + 1) % 3]))
         if here == "R":
-            shift = Complex(shift.real - place.real, shift.imag - place.imag)
+            shift = subtract(shift, place)
         links.append(_Link(turn, shift, place))
     return links[0], links[1], links[2]
 
@@ -165,11 +166,11 @@ def _two_lines(links: tuple[_Link, _Link, _Link], sign: Number) -> tuple[Three, 
     one, two, three = links
     left = add(times(conj(one.turn), one.shift), two.shift, times(two.turn, three.shift))
     along_2, along_3 = two.along, times(two.turn, three.along)
-    sine = _cross(along_2, along_3)
+    sine = cross(along_2, along_3)
     parallel, xp = sine == 0, namespace(sine)
     divisor = xp.where(parallel, 1.0, sine)
     e_1 = conj(times(one.turn, two.turn, three.turn))
-    slides = [xp.where(parallel, 0.0, -part / divisor) for part in (_cross(left, along_3), _cross(along_2, left))]
+    slides = [xp.where(parallel, 0.0, -part / divisor) for part in (cross(left, along_3), cross(along_2, left))]
     return (e_1, slides[0], slides[1]), sine * sine
 
 
@@ -184,8 +185,3 @@ _FORMULAS: dict[str, Callable[..., tuple[Three, Number]]] = {
 def _to_line(two: _Link, three: _Link) -> Complex:
     """Compute z_3 + conj(r_2) z_2 of the slide in RRP."""
     return add(three.shift, times(conj(two.turn), two.shift))
-
-
-def _cross(one: Complex, other: Complex) -> Number:
-    """Compute the cross product of two vectors of the plane."""
-    return one.real * other.imag - one.imag * other.real

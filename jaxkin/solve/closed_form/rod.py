@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from jaxkin.solve.closed_form.arithmetic import Number, ratio, root
 from jaxkin.solve.closed_form.equations import SlideRoot, TurnRoot, solve_slide, solve_turn
-from jaxkin.solve.closed_form.spherical_triangle import Vector, cross, dot
+from jaxkin.solve.closed_form.vectors import Vector, cross, dot
 
 
 def rod_turn(axis: Vector, centre: Vector, near: Vector, far: Vector, length: Number, sign: Number) -> TurnRoot:

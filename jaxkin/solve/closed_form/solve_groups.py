@@ -22,6 +22,7 @@ from jaxkin.solve.closed_form.chain_motions import (
 )
 from jaxkin.solve.closed_form.coordinate import REST, Coordinate, Coordinates, found, given
 from jaxkin.solve.closed_form.group_formulas import GroupFormula, group_formulas
+from jaxkin.solve.closed_form.vectors import dot
 from jaxkin.solve.lockstep import computed_once
 from jaxkin.solve.system.loop_system import LoopSystem
 
@@ -174,7 +175,7 @@ def _rod(system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordinates):
         raise ValueError(f"the loop of {formula} is not cut at a rod")
     rod_rows = moving_rows(system, other)
     end = displace(system, axes, other, rod_rows, x, axes.open_shift[other, :, None])
-    return near, far, namespace(end).sqrt(spherical_triangle.dot(end, end))
+    return near, far, namespace(end).sqrt(dot(end, end))
 
 
 def _axis(axes: Axes, formula: GroupFormula):
@@ -202,15 +203,15 @@ def residual_norm(system: LoopSystem, axes: Axes, rows: Coordinates) -> Float[Ar
         if formula.other_chain is None:
             continue
         ends = (_end(system, axes, chain, rows) for chain in (formula.chain, formula.other_chain))
-        lengths = [xp.sqrt(spherical_triangle.dot(end, end)) for end in ends]
+        lengths = [xp.sqrt(dot(end, end)) for end in ends]
         square = square + (lengths[0] - lengths[1]) ** 2
     for chain in system.sections.spherical:
         moving = moving_rows(system, chain)
         end = _end(system, axes, chain, rows)
-        square = square + spherical_triangle.dot(end, end)
+        square = square + dot(end, end)
         for column, unit in zip(axes.open_turn[chain].T, np.eye(3), strict=True):
             left = displace(system, axes, chain, moving, rows, column[:, None], free=True) - unit[:, None]
-            square = square + spherical_triangle.dot(left, left)
+            square = square + dot(left, left)
     return xp.sqrt(square)
 
 
