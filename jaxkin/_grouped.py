@@ -7,9 +7,10 @@ from collections.abc import Hashable, Iterable, Sequence
 
 SCREEN = 40
 """Lines of one section of a report that are printed one by one: more do not fit on a screen."""
-LISTED = 12
-"""Lines of a longer section that are printed: a report has several of them, and what follows is to be seen, too. Of an
-assembly of 67 parts it has 90 lines in place of 146, of which the last 60 say what to fix and what moves."""
+MAX_LINES = 12
+"""Lines of a longer section, or of one kind in a result, that are printed: a report has several of them, and what
+follows is to be seen, too. Of an assembly of 67 parts it has 90 lines in place of 146, of which the last 60 say what to
+fix and what moves."""
 _NUMBER = re.compile(r"(?<![A-Za-z])-?\d[\d.]*(?:e[+-]?\d+)?")
 _QUOTED = re.compile(r"'[^']*'")
 _INSTANCE = r"<\d+>|\(\d+\)|:\d+"
@@ -33,7 +34,7 @@ def kind_of(text: str) -> str:
 
 def shortened(lines: Sequence[str]) -> list[str]:
     """Return all lines if they fit on a screen, else the first ones, and how many more there are."""
-    return list(lines) if len(lines) <= SCREEN else [*lines[:LISTED], f"and {len(lines) - LISTED} more"]
+    return list(lines) if len(lines) <= SCREEN else [*lines[:MAX_LINES], f"and {len(lines) - MAX_LINES} more"]
 
 
 def grouped(entries: Iterable[tuple[Hashable, str]], verbose: bool = False) -> list[str]:

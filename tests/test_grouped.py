@@ -5,7 +5,7 @@ import pytest
 import trimesh
 
 import jaxkin as jk
-from jaxkin._grouped import LISTED, SCREEN, grouped, kind_of, product, shortened
+from jaxkin._grouped import MAX_LINES, SCREEN, grouped, kind_of, product, shortened
 from jaxkin.assembly.assembly import Assembly
 from jaxkin.geometry.part import Part
 
@@ -40,7 +40,7 @@ def test_of_many_entries_there_is_one_a_kind_and_the_counts_add_up():
 
 def test_lists_end():
     names = [f"part {k}" for k in range(100)]
-    assert shortened(names)[-1] == f"and {100 - LISTED} more" and shortened(names[:SCREEN]) == names[:SCREEN]
+    assert shortened(names)[-1] == f"and {100 - MAX_LINES} more" and shortened(names[:SCREEN]) == names[:SCREEN]
 
 
 @pytest.fixture(scope="module")

@@ -16,7 +16,7 @@ import numpy as np
 
 from jaxkin.assembly.gear_proposal import GearProposal, Meshing
 from jaxkin.assembly.racks import rack_proposal
-from jaxkin.assembly.toothed_parts import MODULE, PARALLEL, Turn, is_around, slides_of, turns_of
+from jaxkin.assembly.toothed_parts import MODULE, PARALLEL_AXES, Turn, is_around, slides_of, turns_of
 from jaxkin.geometry.part import Part, size
 from jaxkin.geometry.pose import Points
 from jaxkin.geometry.teeth import Teeth, find_teeth
@@ -123,7 +123,7 @@ def _ties(turn_1: Turn, turn_2: Turn, turns: Mapping[str, list[Turn]], near: flo
 
 def _same_line(one: Turn, other: Turn, near: float) -> float:
     """Return 1 or -1, the sense of one axis in terms of the other, where both are one line; 0 where they are not."""
-    if np.linalg.norm(np.cross(one.axis, other.axis)) > PARALLEL:
+    if np.linalg.norm(np.cross(one.axis, other.axis)) > PARALLEL_AXES:
         return 0.0
     if np.linalg.norm(np.cross(one.point - other.point, other.axis)) > near:
         return 0.0
@@ -145,7 +145,7 @@ def _pair(one: Part, other: Part, turn_1: Turn, turn_2: Turn, near: float) -> _P
     """Find outlines of two parts about two axes whose pitch circles touch; None where there are none."""
     low, high = np.maximum(one.box[0], other.box[0]), np.minimum(one.box[1], other.box[1])
     corners = np.stack(np.meshgrid(*zip(low, high, strict=True), indexing="ij"), axis=-1).reshape(-1, 3)
-    parallel = np.linalg.norm(np.cross(turn_1.axis, turn_2.axis)) < PARALLEL
+    parallel = np.linalg.norm(np.cross(turn_1.axis, turn_2.axis)) < PARALLEL_AXES
     apex = None if parallel else _meeting(turn_1, turn_2, near)
     if not parallel and apex is None:
         return None

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from jaxkin.assembly.gear_proposal import GearProposal
-from jaxkin.assembly.toothed_parts import MODULE, PARALLEL, Slide, Turn, is_around
+from jaxkin.assembly.toothed_parts import MODULE, PARALLEL_AXES, Slide, Turn, is_around
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Points
 from jaxkin.geometry.teeth import BINS, MAX_TEETH, along_segments, find_teeth, section, section_heights
@@ -27,7 +27,7 @@ def rack_proposal(wheel: Part, row: Part, turn: Turn, slide: Slide) -> GearPropo
     The distance p of the teeth of the rack times the N teeth of the wheel is the circumference of the pitch circle.
     """
     across = np.cross(turn.axis, slide.direction)
-    if turn.carrier != slide.carrier or abs(turn.axis @ slide.direction) > PARALLEL or not is_around(wheel, turn):
+    if turn.carrier != slide.carrier or abs(turn.axis @ slide.direction) > PARALLEL_AXES or not is_around(wheel, turn):
         return None
     low, high = np.maximum(wheel.box[0], row.box[0]), np.minimum(wheel.box[1], row.box[1])
     corners = np.stack(np.meshgrid(*zip(low, high, strict=True), indexing="ij"), axis=-1).reshape(-1, 3) @ turn.axis

@@ -15,8 +15,9 @@ from jaxkin.joints.kinds import JointKind
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
-PARALLEL = 1e-3
-"""Radians between axes that count as parallel, or as meeting at no angle."""
+PARALLEL_AXES = 1e-3
+"""Largest sine of the angle between axes that count as parallel, and cosine of that between an axis and a slide that
+count as perpendicular: ten times the radians to which contacts count directions as parallel by default."""
 MODULE = 0.12
 """How far the module of a wheel, from its own radius and teeth, may be from that of the pair, from the distance of the
 axes: profiles are shifted by up to half a module, which is 6 % of a wheel of 17 teeth."""

@@ -11,12 +11,13 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from jaxkin._arguments import check_motion, numbers, several
+from jaxkin._grouped import MAX_LINES
 from jaxkin._names import nearest
 from jaxkin._traced import traced
 from jaxkin.effects.clash_shapes import Shape, boxes_along, displaced, near_pairs, shape_of
 from jaxkin.effects.invariant_faces import SAME_PLACE, invariant
 from jaxkin.effects.penetration import depths
-from jaxkin.effects.pose_plot import draw_lines, save_rows
+from jaxkin.effects.pose_plot import NAMED, draw_lines, save_rows
 from jaxkin.effects.sampled_depths import sampled_depths
 from jaxkin.geometry.displaced import Displaced
 from jaxkin.geometry.part import size
@@ -31,8 +32,6 @@ if TYPE_CHECKING:
 WITHIN = 0.02
 """Clearance over the size of the mechanism up to which it is measured by default: what is farther away is no concern,
 and costs nothing."""
-MAX_LINES = 12
-"""Pairs that a printed result names at most: more do not fit on a screen."""
 _SAME_LENGTH = 1e-6
 """Share of a length by which another one may differ and be told as the same: lengths are printed with four digits."""
 _NO_LENGTH = 1e-9
@@ -121,7 +120,7 @@ class Clashes:
     def plot(self, path: str | Path) -> Path:
         """Draw the clearances of the pairs that clash, or else of the nearest ones, into a picture file."""
         lowest = np.where(np.isfinite(self.clearances), self.clearances, np.inf).min(axis=1, initial=np.inf)
-        order = [int(pair) for pair in np.argsort(lowest) if lowest[pair] < 0 or not self.joined[pair]][:MAX_LINES]
+        order = [int(pair) for pair in np.argsort(lowest) if lowest[pair] < 0 or not self.joined[pair]][:NAMED]
         label = f"clearance ({self.unit})" if self.unit else "clearance"
         title = "below 0: depth of a clash" if self.clashing.any() else "no clash" if self.closed.any() else "not known"
         if not self.closed.all():

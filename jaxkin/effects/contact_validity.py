@@ -15,6 +15,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from jaxkin._arguments import check_motion
+from jaxkin._grouped import MAX_LINES
 from jaxkin._traced import traced
 from jaxkin.contacts.contact import Contact
 from jaxkin.contacts.separation import Displacements, Gaps
@@ -27,9 +28,6 @@ from jaxkin.joints.joint import Joint
 from jaxkin.joints.screws import displacements
 from jaxkin.mechanism.lost_contacts import FaceSetting, gaps_of, moved_second
 from jaxkin.mechanism.motion import Motion
-
-MAX_LINES = 12
-"""Contacts that a printed result names at most: more do not fit on a screen."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from jaxkin._names import listed
-from jaxkin.effects.mode_search import SAME, PoseFeatures
+from jaxkin.effects.mode_search import SAME_POSE, PoseFeatures
 from jaxkin.effects.motion_curve import FIRST_STEP, Curve, CurvePoint
 from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.movements import MOVEMENTS
@@ -20,8 +20,9 @@ from jaxkin.mobility.infeasible_drive import infeasible_drive, undriven_freedoms
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
-MAX_STEPS = 20_000
-"""Most steps in one direction: some 4000 radians and characteristic lengths of all coordinates together."""
+MAX_CURVE_STEPS = 20_000
+"""Steps along the motion in one direction, at most: some 4000 radians and characteristic lengths of all coordinates
+together."""
 MAX_TURNS = 64
 """Full turns of a driven angle after which no limit is expected."""
 FARTHEST = 100.0
@@ -80,7 +81,7 @@ def find_limit(
     `turns` says whether the drive is an angle, so that the motion may repeat after full turns.
     """
     here, length, number = begun, FIRST_STEP, 1
-    for _ in range(MAX_STEPS):
+    for _ in range(MAX_CURVE_STEPS):
         taken = curve.step(here, length)
         if taken is None:
             return FoundLimit(LimitKind.LOST, here, None, False)
@@ -148,7 +149,7 @@ def _crossed(curve: Curve, here: CurvePoint, there: CurvePoint, length: float, e
 def _is_home(curve: Curve, at: CurvePoint, features: PoseFeatures) -> bool:
     """Tell whether all parts are in their assembled poses again, but for idle freedoms."""
     home, there = features.of(np.stack([np.zeros(len(at.q)), at.q]), curve.free)
-    return bool(np.abs(home - there).max(initial=0.0) <= SAME)
+    return bool(np.abs(home - there).max(initial=0.0) <= SAME_POSE)
 
 
 def why_locked(joints: Mapping[int, Joint], curve: Curve, here: CurvePoint) -> tuple[tuple[str, ...], str]:

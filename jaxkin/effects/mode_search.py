@@ -44,11 +44,11 @@ FARTHEST_SLIDE = 2.0
 side of its middle."""
 STARTS_AT_ONCE = 1024
 """Starts that are followed together: the Jacobians of so many stay within some megabytes."""
-SAME = 1e-6
-"""Largest difference of two poses that are one mode, radians or characteristic lengths: closed poses are right to 1e-9
+SAME_POSE = 1e-6
+"""Largest difference of two poses that are one, radians or characteristic lengths: closed poses are right to 1e-9
 where their Jacobian has singular values down to 1e-5."""
-SAME_SINGLE = 1e-3
-"""The same in float32, in which closed poses are right to 1e-6."""
+SAME_POSE_SINGLE = 1e-3
+"""`SAME_POSE` in float32, in which closed poses are right to 1e-6."""
 _SPIN = 1e-4
 """Displacement along idle freedoms, radians, that shows what they move: their curvature shows as its square."""
 
@@ -143,7 +143,7 @@ def find_modes(
     if not len(poses):
         return FoundPoses(poses, residual, (), weights, by_formulas)
 
-    same = SAME if poses.dtype == np.float64 else SAME_SINGLE
+    same = SAME_POSE if poses.dtype == np.float64 else SAME_POSE_SINGLE
     # equal coordinates first, which are many; then equal features, which take longer and count idle freedoms as nothing
     labels = group_rows(_without_full_turns(loop_group, loops, poses), same)
     rows = _scaled_rows(loop_group, loops, poses[_first_of(labels)])

@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Array, Float, Int
 
 from jaxkin.effects.grid_steps import GridSteps, Inputs, neighbours
-from jaxkin.effects.mode_search import SAME, SAME_SINGLE
+from jaxkin.effects.mode_search import SAME_POSE, SAME_POSE_SINGLE
 from jaxkin.mechanism.motion import Motion
 from jaxkin.solve.closure.closure import scaled_geometry
 from jaxkin.solve.closure.joint_coordinates import as_state
@@ -38,7 +38,7 @@ class Sheets:
         """The poses of each node."""
         self._features: list[np.ndarray] = []
         single = inputs.dtype == np.float32
-        self._same = SAME_SINGLE if single else SAME
+        self._same = SAME_POSE_SINGLE if single else SAME_POSE
 
     def begin(self, node: int, modes: Motion) -> None:
         """Put the modes at a node: poses 0, 1 and so on. Raises ValueError for modes that are one pose."""

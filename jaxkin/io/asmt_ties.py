@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from jaxkin.geometry.pose import Pose
-from jaxkin.io.marker_ties import GEAR, PARALLEL, RACK, SCREW
+from jaxkin.io.marker_ties import GEAR, PARALLEL_MARKERS, RACK, SCREW
 from jaxkin.io.robot_model import placed
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Joint
@@ -92,7 +92,7 @@ def _gear(one: _Moved, other: _Moved) -> Tie | None:
     axis, away = one.frame[:3, 2], other.frame[:3, 3] - one.frame[:3, 3]
     size = np.linalg.norm(away) + np.linalg.norm(one.frame[:3, 3])
     distance = float(np.linalg.norm(np.cross(axis, away)))
-    if np.linalg.norm(np.cross(axis, other.frame[:3, 2])) > PARALLEL or distance <= APART * size:
+    if np.linalg.norm(np.cross(axis, other.frame[:3, 2])) > PARALLEL_MARKERS or distance <= APART * size:
         return None
     radii = np.array([one.factor * one.sign, other.factor * other.sign])
     radii = radii if radii[0] > 0 else -radii
@@ -106,10 +106,10 @@ def _across_or_along(slide: _Moved, turn: _Moved) -> Tie | None:
     """Make a rack of a slide across the axis of a turn, and a screw of a slide along it."""
     x, z = slide.frame[:3, 2], turn.frame[:3, 2]
     ratio = -turn.factor / slide.factor * slide.sign * turn.sign
-    if np.linalg.norm(np.cross(x, z)) <= PARALLEL:
+    if np.linalg.norm(np.cross(x, z)) <= PARALLEL_MARKERS:
         pitch = -2.0 * np.pi * ratio * float(np.sign(x @ z))
         return Tie(SCREW, ((slide.part, slide.frame), (turn.part, turn.frame)), (("pitch", pitch),))
-    if abs(float(x @ z)) > PARALLEL:
+    if abs(float(x @ z)) > PARALLEL_MARKERS:
         return None
     x = x * np.sign(ratio)
     y = np.cross(z, x)

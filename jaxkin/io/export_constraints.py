@@ -28,7 +28,7 @@ LIMIT = "limit"
 UNKNOWN = "UnknownConstraint"
 """Mates that the exporter has no name for: gears, locks, slots. Their own names may tell."""
 
-PARALLEL = 1e-5
+PARALLEL_MATES = 1e-5
 """Radians within which the features of a mate are parallel: exports round directions to nine digits, and systems solve
 mates to about 1e-6."""
 
@@ -112,7 +112,7 @@ def mates_between(
     mates: Iterable[ExportedMate], where: Places, metres: float, size: float, notes: list[str]
 ) -> list[Constraint]:
     """Find the mates between parts of an assembly of a size; those that are not understood are added to the notes."""
-    return [found for each in mates if (found := _mate(each, where, metres, PARALLEL * size, notes)) is not None]
+    return [found for each in mates if (found := _mate(each, where, metres, PARALLEL_MATES * size, notes)) is not None]
 
 
 def _mate(each: ExportedMate, where: Places, metres: float, length: float, notes: list[str]) -> Constraint | None:
@@ -133,7 +133,7 @@ def _mate(each: ExportedMate, where: Places, metres: float, length: float, notes
             cleaned(each.name), parts, text, Chain((LOWER_PAIRS[0, 0][1],), np.eye(4)[None]), JointKind.FIXED
         )
     features = [Feature.of(side.kind, side.point / metres, side.axis) for side in each.sides]
-    found = mate(each.kind, features[0], features[1], PARALLEL, length) if features[0] and features[1] else None
+    found = mate(each.kind, features[0], features[1], PARALLEL_MATES, length) if features[0] and features[1] else None
     if found is None:
         named = [side.kind or "nameless feature" for side in each.sides]
         of = " and ".join(f"{'an' if kind[0] in 'aeiou' else 'a'} {kind}" for kind in named)

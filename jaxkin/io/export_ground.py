@@ -6,7 +6,7 @@ from collections import defaultdict
 from collections.abc import Sequence
 
 from jaxkin._names import listed
-from jaxkin.io.export_constraints import PARALLEL, Paths, Places, joints_between, mates_between
+from jaxkin.io.export_constraints import PARALLEL_MATES, Paths, Places, joints_between, mates_between
 from jaxkin.io.simscape import Export
 from jaxkin.joints.combine import Chain, lower_pair
 from jaxkin.joints.kinds import JointKind
@@ -45,7 +45,7 @@ def _held(export: Export, first: Paths, metres: float, size: float) -> list[str]
     for each in [*joints_between(joints, where, metres, []), *mates_between(mates, where, metres, size, [])]:
         (part,) = {*each.parts} - {WORLD}
         chains[part].append(each.chain)
-    noise = Noise(PARALLEL, PARALLEL * size)
+    noise = Noise(PARALLEL_MATES, PARALLEL_MATES * size)
     return [part for part, several in chains.items() if _leave_nothing(several, noise)]
 
 

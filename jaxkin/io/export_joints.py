@@ -9,14 +9,13 @@ from jaxkin.joints import pairs
 from jaxkin.joints.combine import LOWER_PAIRS, Chain
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
+from jaxkin.joints.two_frames import PERPENDICULAR
 
 _PAIRS = {"weld": (JointKind.FIXED, LOWER_PAIRS[0, 0][1])} | {str(pair[0]): pair for pair in LOWER_PAIRS.values()}
 _BALLS = ("gimbal", "ball")
 """Other names of the spherical pair: three rotations, as angles about successive axes."""
 FREE = ("6dof", "sixdof", "bushing")
 """Joints that hold nothing: all six freedoms, perhaps with springs, which exports do not say."""
-PERPENDICULAR = 1e-6
-"""Largest cosine between the two axes of a universal joint."""
 
 
 def joint_of_kind(kind: str, base: Pose, follower: Pose) -> tuple[JointKind, Chain] | None:

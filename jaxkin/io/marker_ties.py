@@ -26,8 +26,9 @@ GEAR, RACK, SCREW = "GearJoint", "RackPinionJoint", "ScrewJoint"
 TIES = (GEAR, RACK, SCREW)
 """Joints that relate the coordinates of other joints, and join nothing."""
 
-PARALLEL = 1e-6
-"""Sine of the angle between two axes up to which they are parallel: numbers of six digits."""
+PARALLEL_MARKERS = 1e-6
+"""Sine of the angle between two axes of markers up to which they are parallel, and cosine up to which they are
+perpendicular: numbers of six digits."""
 
 COAXIAL = 1e-5
 """Distance of the origin of a wheel's marker from the axis of its bearing, over that of the two markers."""
@@ -68,7 +69,7 @@ class Bodies:
         for joint in made.joints.values():
             own = joint.frame_1[:3, 2]
             ends = [self.of[part] for part in joint.parts]
-            parallel = np.linalg.norm(np.cross(own, axis)) <= PARALLEL
+            parallel = np.linalg.norm(np.cross(own, axis)) <= PARALLEL_MARKERS
             if joint.kind not in kinds or not parallel or ends[0] == ends[1] or body not in ends:
                 continue
             column = 1 if joint.kind is JointKind.CYLINDRICAL and name == "phi" else 0

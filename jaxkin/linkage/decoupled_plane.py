@@ -30,7 +30,7 @@ from jaxkin.joints.joint import Joint
 from jaxkin.joints.screws import DEPENDENT
 from jaxkin.linkage.first_order import null_space
 from jaxkin.linkage.host_closure import ClosedLoops
-from jaxkin.linkage.planes import PARALLEL, Axes, elementary_axes, level
+from jaxkin.linkage.planes import ALIGNED, Axes, elementary_axes, level
 from jaxkin.topology.structure import LoopGroup, Structure
 
 FAR = 0.05
@@ -71,7 +71,7 @@ def _directions(turning: Axes) -> Iterator[np.ndarray]:
     found: list[tuple[np.ndarray, int]] = []
     for _, axis, _ in turning:
         for place, (known, count) in enumerate(found):
-            if np.linalg.norm(np.cross(known, axis)) <= PARALLEL:
+            if np.linalg.norm(np.cross(known, axis)) <= ALIGNED:
                 found[place] = known, count + 1
                 break
         else:
@@ -84,8 +84,8 @@ def _acting_in_plane(axes: tuple[Axes, Axes], normal: np.ndarray) -> tuple[int, 
     columns = []
     for slides, entries in zip((False, True), axes, strict=True):
         for column, *both in entries:
-            perpendicular = all(abs(axis @ normal) <= PARALLEL for axis in both)
-            parallel = all(np.linalg.norm(np.cross(axis, normal)) <= PARALLEL for axis in both)
+            perpendicular = all(abs(axis @ normal) <= ALIGNED for axis in both)
+            parallel = all(np.linalg.norm(np.cross(axis, normal)) <= ALIGNED for axis in both)
             if not (perpendicular or parallel):
                 return None
             if perpendicular if slides else parallel:
@@ -101,7 +101,7 @@ def _tilted(joints: Sequence[Joint], normal: np.ndarray) -> bool:
     for joint in joints:
         sides = np.asarray(joint.frames_1, float)[:, :3, :3], np.asarray(joint.frames_2, float)[:, :3, :3]
         turned_normal = np.einsum("fij,fkj,k->fi", *sides, normal)
-        if np.abs(turned_normal - normal).max(initial=0.0) > PARALLEL:
+        if np.abs(turned_normal - normal).max(initial=0.0) > ALIGNED:
             return True
     return False
 

@@ -18,9 +18,10 @@ from jaxkin._traced import traced
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.joints.joint import Joint
 
-PARALLEL = 1e-12
-"""Sine of the angle between directions that count as parallel, and distance of points that count as one, over the size
-of the loops: rounding, since frames with the noise of files are aligned before (`mobility.alignment`)."""
+ALIGNED = 1e-12
+"""Largest sine of the angle between directions that count as parallel, cosine of that between perpendicular ones, and
+distance of points that count as one over the size of the loops: rounding, since frames with the noise of files are
+aligned before (`mobility.alignment`)."""
 
 
 def plane_columns(joints: Sequence[Joint]) -> tuple[int, ...] | None:
@@ -38,9 +39,9 @@ def plane_columns(joints: Sequence[Joint]) -> tuple[int, ...] | None:
     normal = turning[0][1]
     inside = [column for column, *_ in turning]
     for column, *axes in sliding:
-        if np.all(np.abs(np.array(axes) @ normal) <= PARALLEL):
+        if np.all(np.abs(np.array(axes) @ normal) <= ALIGNED):
             inside.append(column)
-        elif np.any(np.linalg.norm(np.cross(axes, normal), axis=-1) > PARALLEL):
+        elif np.any(np.linalg.norm(np.cross(axes, normal), axis=-1) > ALIGNED):
             return None
     return tuple(sorted(inside)) if level(joints, normal) else None
 
@@ -49,7 +50,7 @@ def level(joints: Sequence[Joint], normal: np.ndarray) -> bool:
     """Tell whether no joint has its frames on its two parts apart along a normal, as changes of lengths leave them."""
     origins = np.concatenate([side[:, :3, 3] for joint in joints for side in (joint.frames_1, joint.frames_2)])
     shifts = [(np.asarray(joint.frames_1) - np.asarray(joint.frames_2))[:, :3, 3] @ normal for joint in joints]
-    return bool(np.max(np.abs(np.concatenate(shifts))) <= PARALLEL * np.ptp(origins, axis=0).max(initial=0.0))
+    return bool(np.max(np.abs(np.concatenate(shifts))) <= ALIGNED * np.ptp(origins, axis=0).max(initial=0.0))
 
 
 def normal_of_turns(joints: Sequence[Joint], columns: Sequence[int]) -> Any:
@@ -92,7 +93,7 @@ def turn_about_one_point(joints: Sequence[Joint]) -> bool:
     centre = np.linalg.lstsq(across.sum(axis=0), np.einsum("aij,aj->i", across, places), rcond=None)[0]
     off = np.linalg.norm(np.einsum("aij,aj->ai", across, centre - places), axis=1)
     along = np.einsum("ai,ai->a", sides, centre - places).reshape(-1, 2)
-    return bool(max(off.max(), np.abs(along[:, 0] - along[:, 1]).max()) <= PARALLEL * size)
+    return bool(max(off.max(), np.abs(along[:, 0] - along[:, 1]).max()) <= ALIGNED * size)
 
 
 def _origins(joint: Joint) -> np.ndarray:
@@ -138,5 +139,5 @@ def elementary_axes(joints: Sequence[Joint], *, of_balls: bool = False) -> tuple
 def _one_direction(turning: Axes) -> bool:
     """Tell whether there are axes of rotations, and all of them are parallel, on either part of each joint."""
     return bool(turning) and all(
-        np.linalg.norm(np.cross(turning[0][1], axis)) <= PARALLEL for _, *axes in turning for axis in axes
+        np.linalg.norm(np.cross(turning[0][1], axis)) <= ALIGNED for _, *axes in turning for axis in axes
     )

@@ -11,7 +11,7 @@ from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.joints.joint import Joint
 from jaxkin.topology.components import connected
 
-PARALLEL = 1e-5
+ALONG_ROD = 1e-5
 """Sine of the largest angle between a line of centres and the axis of a joint that slides along it: what rounding to
 six digits leaves. The spin about the line is free whatever the angle, because only the two balls hold the rod."""
 
@@ -57,4 +57,4 @@ def _all_along(line: np.ndarray, slides: Sequence[Joint]) -> bool:
     """Tell whether the line is longer than zero and the axes of all sliding joints are parallel to it."""
     length = float(np.linalg.norm(line))
     axes = [np.asarray(joint.frames_1[0], float)[:3, 2] for joint in slides]
-    return length > 0 and all(np.linalg.norm(np.cross(axis, line)) <= PARALLEL * length for axis in axes)
+    return length > 0 and all(np.linalg.norm(np.cross(axis, line)) <= ALONG_ROD * length for axis in axes)

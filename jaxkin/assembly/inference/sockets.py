@@ -16,8 +16,8 @@ MAX_BALL_CLEARANCE = 0.1
 """Radial clearance over the radius of the socket, at most."""
 MIN_SHARE = 0.2
 """Share of a whole sphere that faces of a ball and of its socket have, at least: rounded corners have an eighth."""
-SAME = 1e-3
-"""Distance between centres of faces of one sphere, and the difference of their radii, over the radius."""
+SAME_SPHERE = 1e-3
+"""Distance between the centres of faces of one sphere, and the difference of their radii, over the radius, at most."""
 
 
 class SphericalFaces(NamedTuple):
@@ -82,7 +82,7 @@ def _spheres(part: Part) -> list[SphericalFaces]:
             share = float(area) / (4 * np.pi * surface.radius**2)
             for index, (first, known) in enumerate(groups):
                 apart = np.linalg.norm(first.centre - surface.centre) + abs(first.radius - surface.radius)
-                if first.side == surface.side and apart <= SAME * first.radius:
+                if first.side == surface.side and apart <= SAME_SPHERE * first.radius:
                     groups[index] = first, known + share
                     break
             else:

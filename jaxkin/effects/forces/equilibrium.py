@@ -28,8 +28,8 @@ from jaxkin.mechanism.motion import Motion
 
 Inputs = Float[np.ndarray, " poses"]
 
-MAX_STEPS = 60
-"""Steps that refine a sign change: halving alone gains a digit in three."""
+MAX_REFINEMENTS = 60
+"""Steps that refine a sign change, at most: halving alone gains a digit in three."""
 WITHIN = 1e-12
 """Width of a sign change, or length of a step, over the range of the drive, at which it is refined enough. In float32
 it is the unit of rounding."""
@@ -257,7 +257,7 @@ def _refined(
     best, left = np.where(np.abs(at_low) < np.abs(at_high), low, high), np.minimum(np.abs(at_low), np.abs(at_high))
     first = np.abs(at_low) * np.abs(at_high)
     weights = np.ones((2, len(low)))
-    for step in range(MAX_STEPS):
+    for step in range(MAX_REFINEMENTS):
         if not len(low) or np.all((high - low <= within) | (left == 0)):
             break
         one, other = weights[0] * at_low, weights[1] * at_high

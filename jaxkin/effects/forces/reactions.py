@@ -13,6 +13,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float, Int
 
+from jaxkin._grouped import MAX_LINES
 from jaxkin._named import Named
 from jaxkin._names import nearest
 from jaxkin.effects.forces.balance import balance, solve
@@ -49,8 +50,6 @@ from jaxkin.mechanism.singularity import singular_report
 from jaxkin.solve.execution.compiler import whole_program
 from jaxkin.solve.status import is_closed_on_branch
 
-MAX_LINES = 12
-"""Joints that a printed result names at most: more do not fit on a screen."""
 MAX_HELD = 4
 """Coordinates without a drive that a printed result names at most: one idle freedom may show in several."""
 HELD = 1e-6

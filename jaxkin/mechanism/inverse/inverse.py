@@ -26,8 +26,8 @@ from jaxkin.solve.status import Status
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
-SAME = 1e-6
-"""Difference of all coordinates, in radians and sizes, up to which two solutions are one."""
+SAME_SOLUTION = 1e-6
+"""Largest difference of the coordinates of two solutions that are one, radians and sizes: far above `REACHED`."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,6 +187,6 @@ def _distinct(
             continue
         one = x[number] if number == first else problem.turned_back(x[number], bounds)
         off = [problem.turned_back(one - other, problem.unlimited) for other in kept]
-        if all(np.abs(each).max(initial=0.0) > SAME for each in off):
+        if all(np.abs(each).max(initial=0.0) > SAME_SOLUTION for each in off):
             kept.append(one)
     return np.stack(kept) if kept else np.zeros((0, x.shape[1]))

@@ -38,7 +38,7 @@ from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import Coordinates, State, matrix, multiply, rate, retract
 
-MAX_STEPS = 40
+MAX_NEWTON_STEPS = 40
 """Steps towards the nearest pose, at most. Random states of Cassie's loops, 0.3 rad to either side, settle in 14."""
 
 CLOSED_SHARE = 0.1
@@ -112,7 +112,7 @@ def _search(
     poses, dtype = begun.x.shape[-1], begun.x.dtype
 
     def running(at: _Iterate) -> Array:
-        return (at.count < MAX_STEPS) & any_in_lockstep(~at.settled)
+        return (at.count < MAX_NEWTON_STEPS) & any_in_lockstep(~at.settled)
 
     def step(at: _Iterate) -> _Iterate:
         evaluation = closure(system, geometry, at.state)
@@ -226,7 +226,7 @@ def _nearest_jvp(system: LoopSystem, primals, tangents):
         b = b - solve_least_norm_refined(jacobian, right, floor, system.used)
         return jnp.where(settled, b, 0.0), None
 
-    v, _ = lax.scan(onward, jnp.zeros_like(off), None, length=MAX_STEPS)
+    v, _ = lax.scan(onward, jnp.zeros_like(off), None, length=MAX_NEWTON_STEPS)
     moves = rate(system, found, v / weights[:, None])
     # what is driven moves as it is given
     held = jax.tree.map(jnp.zeros_like, d_begun)._replace(

@@ -10,8 +10,8 @@ from jaxtyping import Array, Float
 
 from jaxkin.solve.linear.gram import product, row_products
 
-MAX_UNROLLED_ROWS = 3
-"""Largest number of rows that straight-line code factorises. More are halved, which turns most of the work into
+MAX_UNHALVED_ROWS = 3
+"""Largest number of rows that straight-line code factorises at once. More are halved, which turns most of the work into
 products of matrices."""
 
 Square = Float[Array, "n n poses"]
@@ -19,7 +19,7 @@ Square = Float[Array, "n n poses"]
 
 def inverse_root(matrix: Square) -> Square:
     """Compute R in each pose."""
-    if len(matrix) <= MAX_UNROLLED_ROWS:
+    if len(matrix) <= MAX_UNHALVED_ROWS:
         return _unrolled(matrix)
     half = len(matrix) // 2
     upper = inverse_root(matrix[:half, :half])
