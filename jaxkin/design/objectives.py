@@ -37,6 +37,7 @@ class _Path:
     components: tuple[int, ...] = field(metadata=STATIC)
 
     def traced_path(self, motion: Motion, extras: Extras) -> Float[Array, "poses components"]:
+        """Compute the path of the point in the wanted components, placed as the extra variable says."""
         found = self.point.path(motion, extras)
         if self.placement is not None:
             x, y, angle = given.extra(extras, self.placement, "path: placement", ((3,),))

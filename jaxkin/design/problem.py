@@ -181,6 +181,7 @@ def _children(problem: Problem) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
 
 
 def _rebuilt(static: tuple[Any, ...], children: tuple[Any, ...]) -> Problem:
+    """Make a problem of what `_children` returns, `static` being what it has besides pytrees."""
     (rest, squares, options), (loss, constraints, chosen, linkage) = static, children
     if not isinstance(rest, Mechanism):
         unit, motors = rest

@@ -191,6 +191,10 @@ def _point_now(mechanism: Mechanism, key: Any) -> np.ndarray:
 
 
 def _free(what: str, bounds: Any, now: Any) -> Free:
+    """Return bounds as numbers to be chosen: a pair (lower, upper) starts at `now`, a `Free` has a start of its own.
+
+    Raises ValueError for what is neither; `what` begins the message.
+    """
     if isinstance(bounds, Free):
         return bounds
     try:
@@ -201,6 +205,11 @@ def _free(what: str, bounds: Any, now: Any) -> Free:
 
 
 def _entry(group: str, key: Any, free: Free, what: str = "") -> _Bounded:
+    """Make a variable of a group ("lengths", "points", "inputs", "extras") with its start and its bounds.
+
+    A start outside of its bounds by rounding is moved onto them. Raises ValueError for numbers of different shapes,
+    bounds in the wrong order, a start beyond them, and NaN and infinity; `what` begins the message.
+    """
     what = what or f"{group[:-1]} {key!r}"
     try:
         start, lower, upper = (np.asarray(value, float) for value in (free.start, free.lower, free.upper))
@@ -225,6 +234,11 @@ def _said(start, lower, upper) -> str:
 
 
 def _tied(mechanism: Mechanism, entries: Sequence[_Entry], ties: Mapping[Any, Any]) -> tuple[_Entry, ...]:
+    """Add to variables the further keys that take their values.
+
+    `ties` maps such a key to the key of a variable, or to (key of the variable, function of its value). Raises
+    ValueError for a source that is no variable, and for a key that is a variable itself or that the mechanism lacks.
+    """
     followers: dict[Any, list[tuple[Any, Callable | None]]] = {}
     known = [entry.key for entry in entries]
     for key, source in ties.items():

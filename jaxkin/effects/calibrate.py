@@ -181,6 +181,7 @@ def _named(names: Sequence[str], row: Float[np.ndarray, " unknowns"]) -> dict[st
 
 
 def _check_start(reached: Bool[Array, " poses"]) -> None:
+    """Raise ValueError where the given mechanism misses measured poses: `reached` tells at which it closes."""
     lost = np.flatnonzero(~np.asarray(reached))
     if len(lost):
         raise ValueError(

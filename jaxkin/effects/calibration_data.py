@@ -101,6 +101,10 @@ def data_of(mechanism: Mechanism, measured: Any, sigma: Any, poses: int) -> Data
 
 
 def _kind(mechanism: Mechanism, key: Any) -> Kind:
+    """Tell what a key of the measurements means: a coordinate of a joint, or the place or orientation of a part.
+
+    Raises ValueError for names that are not there, and for parts that are fixed.
+    """
     if not isinstance(key, Target):
         column, index = coordinate(mechanism.linkage, key)
         return Kind(key, key, (is_length(mechanism.all_joints[column].coordinates[index]),), column, index)
@@ -112,6 +116,10 @@ def _kind(mechanism: Mechanism, key: Any) -> Kind:
 
 
 def _array(kind: Kind, numbers: Any, poses: int) -> np.ndarray:
+    """Return the measured values of one quantity as an array (poses, ...), NaN where nothing was measured.
+
+    Raises ValueError for what is no real number, infinity, and arrays of another shape.
+    """
     shape = (poses, *kind.key.shape) if isinstance(kind.key, Target) else (poses,)
     try:
         array = np.asarray(numbers, float)

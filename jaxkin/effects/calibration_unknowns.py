@@ -155,6 +155,10 @@ def written(key: Any) -> str:
 
 
 def _components(place: Any, asked: Any, known: Sequence[str]) -> tuple[int, ...]:
+    """Return the numbers, in COMPONENTS, of the components by which a frame at `place` may change.
+
+    `asked` is one name or several, or None for all that are `known` there. Raises ValueError for other names.
+    """
     chosen = known if asked is None else asked
     if isinstance(chosen, str):
         chosen = (chosen,)

@@ -51,6 +51,11 @@ def curve_contacts(motion: Motion) -> CurveContacts:
 
 
 def _of_joint(joint: Joint, q: Float[np.ndarray, "poses freedoms"]) -> list[CurveContact]:
+    """Check what follows the curve or surface of one joint; coordinates of the plane are those of the curve's frame.
+
+    `q` are the displacements of the joint at each pose, NaN where it is not closed. Empty for a joint of which no
+    contact is looked at.
+    """
     spline, second = joint.splines[0], joint.splines[-1]
     if isinstance(spline, BicubicSpline):
         return contacts_on_surface(joint.name, spline, q)
@@ -119,11 +124,13 @@ def _of_two(joint: Joint, one: Spline, other: Spline, q: Float[np.ndarray, "pose
 def _contact(
     joint: str, what: str, spline: Spline, q: Poses, curvature: Poses, clearance: Poses, depth: Poses, size: float
 ) -> CurveContact:
+    """Make the contact of a curve at displacements `q`: where it is on the curve, counted from the first point."""
     place = float(spline.start) + q, float(spline.knots[-1]), spline.closed
     return made_contact(joint, what, "curve", place, (curvature, clearance, depth), size)
 
 
 def _sampled(spline: Spline) -> Float[np.ndarray, "samples 2"]:
+    """Evaluate a curve at SAMPLES places of each piece, and at the end of an open one."""
     knots = spline.knots
     s = (knots[:-1, None] + np.diff(knots)[:, None] * np.arange(SAMPLES) / SAMPLES).ravel()
     at = spline.at((s if spline.closed else np.append(s, knots[-1])) - spline.start)

@@ -85,6 +85,10 @@ class Extended:
         return np.linalg.pinv(self._jacobian(q), rcond=RANK) @ misfit
 
     def _jacobian(self, q: Row) -> Float[np.ndarray, "equations columns"]:
+        """Compute the Jacobian of `_misfit` in float64, by radians and lengths of the mechanism.
+
+        Columns that are not free are zero.
+        """
         every = self.loops.jacobian(q / self.loops.units)
         jacobian = np.zeros_like(every)
         jacobian[:, self.free] = every[:, self.free]
@@ -137,6 +141,11 @@ class Extended:
     def _displaced(
         self, pose: Any, element: ElementaryMotion, value: Any, pitch: float, point: FollowedPoint | None
     ) -> Any:
+        """Multiply a pose F (4, 4) by an elementary motion E from the right, F E, in place, and return it.
+
+        `value` is the coordinate of E, `pitch` the advance of a screw per turn, `point` that of the curve or surface
+        which E follows.
+        """
         turns = self.mp.mpf(pitch) * 2 * np.pi / (2 * self.mp.pi)  # `amount` divides by 2 pi of float64
         how_far = amount(element, value, turns, point, lambda angle: (self.mp.cos(angle), self.mp.sin(angle)))
         for number, column in enumerate(displaced_columns([pose[:, k] for k in range(4)], element.axis, *how_far)):

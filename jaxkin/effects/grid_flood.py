@@ -143,6 +143,7 @@ class _Front:
         return newest[which[unknown]], end[unknown]
 
     def _keep(self, nodes: np.ndarray, found: Steps, chosen: np.ndarray) -> None:
+        """Keep the poses `chosen` of those `found` as the poses of `nodes`, which are known from then on."""
         for own, state in zip(self.states, found.states, strict=True):
             for part, new in zip(own, state, strict=True):
                 part[..., nodes] = np.asarray(new)[..., chosen]

@@ -139,6 +139,7 @@ def _walk(
         problem = ClosureProblem(system, geometry, options)
 
         def step(number, carry, system=system, geometry=geometry, problem=problem, ends=(one / own, other / own)):
+            """Move the inputs by step `number` of `count`, and close the loops there."""
             state, taken, *_ = carry
             # shorter towards both ends, where a limit may be near: coordinates change as the root of the distance to it
             done, then = (0.5 - 0.5 * jnp.cos(jnp.pi * k / count) for k in (number, number + 1))

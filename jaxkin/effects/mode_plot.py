@@ -65,6 +65,7 @@ def draw_modes(motion: Motion, titles: Sequence[str], path: Path) -> Path:
 
 
 def _shape_panel(axes: Any, in_space: bool) -> None:
+    """Give a panel equal scales along its axes: a cube in space, as large as the panel takes; a plane otherwise."""
     if in_space:
         axes.set_box_aspect((1, 1, 1), zoom=1.5)
     else:

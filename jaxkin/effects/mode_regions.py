@@ -103,6 +103,7 @@ class ModeRegions:
         return [self.modes.names[k].removeprefix("mode ") for k in modes]
 
     def _region(self, mode: int) -> int:
+        """Find the region of a mode, which may be counted from the last one; IndexError where there is none such."""
         if not -len(self.modes) <= mode < len(self.modes):
             raise IndexError(f"there are {len(self.modes)} modes, numbered from 0, got {mode}")
         mode %= len(self.modes)

@@ -140,6 +140,7 @@ class MotionLaw:
         return _evaluated(self, order, jnp.asarray(numbers(times, "the times of a motion law"), float))
 
     def _at(self, time: Array) -> Array:
+        """Compute the displacements at times, by the segment that began last; after the end the last one stays."""
         found = jnp.asarray(self.start, time.dtype)
         begins = accumulate((segment.duration for segment in self.segments), initial=0.0)
         rises = accumulate((segment.rise for segment in self.segments), initial=self.start)

@@ -91,6 +91,7 @@ class Sheets:
         return np.array(self.node)[poses[::-1]]
 
     def _graph(self):
+        """Make the graph of all poses: a sparse matrix with an entry for each pair that a step connects."""
         from scipy.sparse import coo_array
 
         count = len(self.node)

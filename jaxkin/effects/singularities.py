@@ -124,6 +124,7 @@ class _Edge(NamedTuple):
 
 
 def _edges(workspace: Workspace) -> Iterator[_Edge]:
+    """List the lines of the grid along which a singularity is looked for."""
     reached, grids = workspace.reached, list(workspace.inputs.values())
     followed = reached | (workspace.status == Status.LIMITED.value)  # where joints end, the loops go on
     for axis, grid in enumerate(grids):

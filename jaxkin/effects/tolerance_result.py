@@ -242,6 +242,7 @@ def _interval(pair: tuple[float, float]) -> str:
 
 
 def _spread(good: Float[np.ndarray, " samples"]) -> str:
+    """Tell mean, standard deviation and range of the samples that close."""
     if not len(good):
         return "none closes"
     deviation = good.std(ddof=1) if len(good) > 1 else 0.0

@@ -197,6 +197,7 @@ def _is_one_pose(drive: Mapping[Any, Any]) -> bool:
 
 
 def _limits_of(wanted: Any) -> tuple[float, float] | None:
+    """Return the limits (low, high) that are wanted of a measure; ValueError for others than two rising numbers."""
     if wanted is None:
         return None
     try:
@@ -209,6 +210,7 @@ def _limits_of(wanted: Any) -> tuple[float, float] | None:
 
 
 def _check_nominal(value: float, reached: bool, slopes: Float[np.ndarray, " numbers"]) -> None:
+    """Raise ValueError where the nominal mechanism does not close, or its measure is no number or has no derivative."""
     if not reached:
         raise ValueError(
             "the nominal mechanism does not close for this drive: tolerances are asked about one that works; sweep it "

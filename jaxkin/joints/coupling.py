@@ -156,6 +156,11 @@ def _linear(
     angles: bool | None,
     offset: Number = 0.0,
 ) -> Coupling:
+    """Make the coupling sum f_i q_i = `offset` of coordinates q_i and `factors` f_i.
+
+    `what` names the factors in messages; `angles` is that of `Coupling`. Raises ValueError for fewer than two
+    coordinates, and for factors that are zero or no finite numbers.
+    """
     _two(*coordinates)
     _check_numbers({f"the {what} of {each!r}": factor for each, factor in zip(coordinates, factors, strict=True)})
     _check_numbers({"the offset": offset}, zero=True)

@@ -174,6 +174,11 @@ def _densities(density: Any, solids: Sequence[Part]) -> tuple[dict[str, Any], se
 
 
 def _density(given: Any) -> Any:
+    """Return a density in kg/m^3, given as a number or as the name of a material.
+
+    Raises ValueError for unknown names, and for what is negative, infinite or no number; traced numbers are not looked
+    at.
+    """
     if isinstance(given, str):
         if given.lower() not in DENSITIES:
             known = ", ".join(DENSITIES)

@@ -167,11 +167,13 @@ def _product(a: Place, b: Place) -> Place:
 
 
 def _inverse(place: Place) -> Place:
+    """Compute the inverse of a place: with its rotation R and origin t, R^T and -R^T t."""
     turn = place[:3, :3].T
     return place.at[:3, :3].set(turn).at[:3, 3].set(-jnp.sum(turn * place[:3, 3], axis=1))
 
 
 def _turned(places: Float[Array, "parts 4 4"], points: Float[Array, "parts 3"]) -> Float[Array, "parts 3"]:
+    """Rotate each point by the rotation of its place."""
     return jnp.sum(places[:, :3, :3] * points[:, None, :], axis=2)
 
 

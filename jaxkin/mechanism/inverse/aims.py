@@ -64,6 +64,11 @@ def poses_of(aim: Aim) -> int:
 
 
 def _aim(mechanism: Mechanism, key: str | Target, values: Any, weight: Weight) -> Aim:
+    """Read the values of one target, a row a pose: of a coordinate named by `key`, or of a part.
+
+    Raises ValueError for names that are not there, parts that are fixed, arrays of another shape, NaN and infinity,
+    matrices that are no rotations, and weights that are negative or no numbers.
+    """
     try:
         given = np.asarray(values, float)
     except (TypeError, ValueError):
@@ -91,12 +96,17 @@ def _aim(mechanism: Mechanism, key: str | Target, values: Any, weight: Weight) -
 
 
 def _finite(key: str | Target, given: np.ndarray) -> np.ndarray:
+    """Return the values of a target; ValueError where one of them is NaN or infinite."""
     if not np.isfinite(given).all():
         raise ValueError(f"the target {key!r} has NaN or infinity; leave those poses out")
     return given
 
 
 def _weights(key: object, weight: Weight) -> tuple[float, float]:
+    """Return the weights (place, orientation) of a target, equal where one number is given.
+
+    Raises ValueError for what is negative, infinite or no number.
+    """
     try:
         both = tuple(float(each) for each in np.broadcast_to(np.asarray(weight, float), 2))
     except (TypeError, ValueError):
