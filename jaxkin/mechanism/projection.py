@@ -88,8 +88,8 @@ def project(
     It starts from what is given, not from the assembled pose: nothing says that the motion leads from one to the other,
     and `CLOSED` means no more than that the loops close. Poses that cannot be closed have the status UNREACHABLE, those
     with NaN or infinity NONFINITE. Works inside `jit`, `vmap` and `grad`; derivatives are those of the nearest pose,
-    zero where `nearest` is False. Raises ValueError for names that are not there, arrays of other shapes, and weights
-    that are not positive.
+    zero where `nearest` is False. Raises ValueError for a mechanism without coordinates, names that are not there,
+    arrays of other shapes, and weights that are not positive.
     """
     check_mechanism(mechanism, "nearest poses")
     linkage, options = mechanism.linkage, options_with(options)
@@ -168,6 +168,8 @@ def _first(mechanism: Mechanism) -> tuple[str, ...]:
 
 def _given(mechanism: Mechanism, given: Mapping[str, Any]) -> dict[str, Float[Array | np.ndarray, "poses _"]]:
     """Check the coordinates that are given, and fill in those that are not; ValueError for others than there are."""
+    if not any(joint.freedoms for joint in mechanism.all_joints):
+        raise ValueError("no joint of the mechanism has a coordinate: all its parts are one body")
     found: dict[str, Any] = {}
     dtype = dtypes.canonicalize_dtype(float)
     for name, values in by_name(given, "coordinates", "{'A': angles, 'ball': (poses, 3)}").items():

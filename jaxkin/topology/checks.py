@@ -5,12 +5,20 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Sequence
 
+from jaxkin._arguments import several
 from jaxkin._names import nearest
 from jaxkin.topology.graph import Graph
 
 MAX_MERGED = 3
 """Fixed parts that the name of their row names one by one: the paper's examples have two, and of the eighty fixed parts
 of an assembly that was drawn with its bolts nobody reads the names in every loop."""
+
+
+def check_letters(parts: str, joints: Sequence[tuple[str, str, str]], fixed: Sequence[str]) -> None:
+    """Refuse a text in place of the names of parts where joints and fixed parts name more than letters: ValueError."""
+    named = [*fixed, *(part for _, *ends in joints for part in ends)]
+    if any(len(str(part)) > 1 for part in named):
+        several(parts, "parts", "part names")
 
 
 def check_names(parts: Sequence[str], joints: Sequence[tuple[str, str, str]], fixed: Sequence[str]) -> None:

@@ -16,7 +16,7 @@ import numpy as np
 from jaxtyping import Int
 
 from jaxkin._arguments import several
-from jaxkin.topology.checks import check_chords, check_connected, check_names, merged_name
+from jaxkin.topology.checks import check_chords, check_connected, check_letters, check_names, merged_name
 from jaxkin.topology.components import connected
 from jaxkin.topology.describe import describe
 from jaxkin.topology.elements import ElementNode, StructureElement, element_tree, named
@@ -225,6 +225,8 @@ def structure(
 ) -> Structure:
     """Make the structure of a mechanism from its parts, joints (name, part 1, part 2) and fixed parts.
 
+    Parts are a list of names, or one text if its letters are their names, as "ABCD" for four parts.
+
     `chords` names the joints that a spanning tree leaves out. Each chord closes one loop with the tree (Eq. 3). The
     loop travels its chord from part 1 to part 2, or is reversed where that makes all loops travel a common joint in
     the same direction. Without `chords`, a basis of short loops of that kind is found (`cycle_basis`), in which the
@@ -235,12 +237,14 @@ def structure(
     chain of joints connects to a fixed one, chords that do not leave a spanning tree, and chords whose loops no
     reversal gives common directions.
     """
-    parts = tuple(parts) if isinstance(parts, str) else several(parts, "parts", "part names")  # "ABCD": four letters
+    parts = parts if isinstance(parts, str) else several(parts, "parts", "part names")
     fixed = several(fixed, "fixed", "part names")
     joints = several(joints, "joints", "joints (name, part 1, part 2)", "[('A', 'base', 'crank')]")
     if wrong := [joint for joint in joints if not isinstance(joint, tuple | list) or len(joint) != 3]:
         raise ValueError(f"a joint is given as (name, part 1, part 2), got {wrong[0]!r}")
-    check_names(parts, joints, fixed)
+    if isinstance(parts, str):
+        check_letters(parts, joints, fixed)
+    check_names(tuple(parts), joints, fixed)
     names = tuple(name for name, _, _ in joints)
     check_chords(names, chords)
     ends = tuple((part1, part2) for _, part1, part2 in joints)

@@ -136,3 +136,9 @@ def test_poses_that_are_no_numbers_or_cannot_close_are_data():
 def test_wrong_coordinates_are_refused(given, more, message):
     with pytest.raises(ValueError, match=message):
         jk.project(FOURBAR, given, **more)
+
+
+def test_a_mechanism_without_coordinates_is_refused():
+    welded = jk.Mechanism.build(fixed=["base"], joints=[jk.fixed("weld", "base", "part")])
+    with pytest.raises(ValueError, match="no joint of the mechanism has a coordinate"):
+        jk.project(welded, {"weld": np.zeros((2, 0))})

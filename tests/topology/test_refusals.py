@@ -14,6 +14,13 @@ LOOSE = [("E", "handle", "knob")]
     ("parts", "joints", "fixed", "chords", "message"),
     [
         ([], [], [], None, "there are no parts"),
+        (
+            "ground",
+            JOINTS,
+            ["ground"],
+            None,
+            r"parts must be a list .* got the text 'ground'; write parts=\['ground'\]",
+        ),
         (PARTS, JOINTS, [], None, r"no part is fixed; .* such as fixed=\['ground'\]"),
         (PARTS, JOINTS, "ground", None, r"got the text 'ground'; write fixed=\['ground'\]"),
         (PARTS, JOINTS, ["gruond"], None, "no part 'gruond' to fix; did you mean 'ground'?"),

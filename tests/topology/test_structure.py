@@ -57,6 +57,11 @@ def test_contacts_of_one_pair_are_closed_loops() -> None:
     assert found.loops[0].path == ("p1", "a", "p2", "e")
 
 
+def test_parts_may_be_named_by_the_letters_of_a_text() -> None:
+    ring = [("j", "A", "B"), ("k", "B", "C"), ("l", "C", "A")]
+    assert structure("ABC", ring, ["A"]) == structure(["A", "B", "C"], ring, ["A"])
+
+
 def test_equal_descriptions_are_one_key() -> None:
     first, second = (structure(PARTS, FOURBAR, ["ground", "wall"]) for _ in range(2))
     assert first == second and hash(first) == hash(second)
