@@ -15,7 +15,7 @@ from jaxkin._arguments import check_motion
 from jaxkin._traced import traced
 from jaxkin.effects.curve_contact import CurveContact, CurveContacts, Poses, made_contact
 from jaxkin.effects.surface_contact import contacts_on_surface
-from jaxkin.geometry.curves import CurvePoint, Spline
+from jaxkin.geometry.curves import CurvePoint, Spline, sampled_pieces
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.patches import BicubicSpline
 from jaxkin.joints.joint import Joint
@@ -131,9 +131,7 @@ def _contact(
 
 def _sampled(spline: Spline) -> Float[np.ndarray, "samples 2"]:
     """Evaluate a curve at SAMPLES places of each piece, and at the end of an open one."""
-    knots = spline.knots
-    s = (knots[:-1, None] + np.diff(knots)[:, None] * np.arange(SAMPLES) / SAMPLES).ravel()
-    at = spline.at((s if spline.closed else np.append(s, knots[-1])) - spline.start)
+    at = spline.at(sampled_pieces(spline.knots, spline.closed, SAMPLES) - spline.start)
     return np.stack([at.x, at.y], axis=1)
 
 

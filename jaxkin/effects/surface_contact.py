@@ -6,8 +6,9 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.effects.curve_contact import CurveContact, Poses, made_contact
+from jaxkin.geometry.curves import sampled_pieces
 from jaxkin.geometry.patches import BicubicSpline
-from jaxkin.joints.patch_contact import SAMPLES, sampled
+from jaxkin.joints.patch_contact import SAMPLES
 
 
 def contacts_on_surface(
@@ -19,7 +20,7 @@ def contacts_on_surface(
     """
     finite = np.asarray(np.isfinite(q[:, :2]).all(axis=1))
     at = np.where(finite[:, None], q[:, :2], 0.0).T
-    u, v = (sampled(knots, closed, SAMPLES) for knots, closed in zip(spline.knots, spline.closed, strict=True))
+    u, v = (sampled_pieces(knots, closed, SAMPLES) for knots, closed in zip(spline.knots, spline.closed, strict=True))
     begin_u, begin_v = map(float, spline.start)
     found = spline.derivatives(u[:, None] - begin_u, v[None] - begin_v).point
     points = np.stack(np.broadcast_arrays(*found), axis=-1).reshape(-1, 3)

@@ -174,6 +174,14 @@ def length_at(xp: Any, number: Any, knots: Any, closed: bool) -> Any:
     return found + xp.minimum(number, 0.0) * knots[1] + xp.maximum(number - last, 0.0) * (knots[-1] - knots[-2])
 
 
+def sampled_pieces(knots: Any, closed: bool, each: int) -> Float[np.ndarray, " samples"]:
+    """Sample the lengths of the chords at `each` even places between two knots, an open curve also at its end: host
+    numbers."""
+    knots = np.asarray(knots, float)
+    s = (knots[:-1, None] + np.diff(knots)[:, None] * np.arange(each) / each).ravel()
+    return s if closed else np.append(s, knots[-1])
+
+
 def number_at(s: float, knots: Any, closed: bool) -> float:
     """Compute the number of points at a length of the chords, the inverse of `length_at`: host numbers."""
     if closed:

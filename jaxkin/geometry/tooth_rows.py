@@ -8,6 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin._runs import runs
+
 MIN_ROW = 4
 """Teeth of a row at least: three distances that are alike are no chance of steps or holes."""
 ALIKE = 0.06
@@ -86,8 +88,7 @@ def _runs(heights: Float[np.ndarray, " samples"], step: float, level: float) -> 
     share = (ends - begins) / np.median(apart)
     alike = (np.abs(apart / np.median(apart) - 1) < ALIKE) & (WIDTH[0] < share[1:]) & (share[1:] < WIDTH[1])
     alike &= (WIDTH[0] < share[:-1]) & (share[:-1] < WIDTH[1])
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], alike, [False]]).astype(int)))
-    stretches = edges.reshape(-1, 2)
+    stretches = runs(alike)
     if not len(stretches):
         return None
     first, last = stretches[np.argmax(stretches[:, 1] - stretches[:, 0])]

@@ -8,6 +8,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin._traced import traced
+from jaxkin.geometry.curves import sampled_pieces
 from jaxkin.geometry.patches import BicubicSpline, Patch
 from jaxkin.joints.profiles import LEAST_POINTS
 
@@ -143,7 +144,7 @@ class PatchContact(NamedTuple):
 def nearest_on(placed: PlacedPatch, point: Vector) -> PatchContact:
     """Find the point of a surface that is nearest to a point in its axes: Newton steps from the nearest sample."""
     spline = placed.spline
-    u, v = (sampled(knots, closed, SAMPLES) for knots, closed in zip(spline.knots, spline.closed, strict=True))
+    u, v = (sampled_pieces(knots, closed, SAMPLES) for knots, closed in zip(spline.knots, spline.closed, strict=True))
     points = np.stack(spline.derivatives(u[:, None], v[None]).point, axis=-1)
     i, j = np.unravel_index(np.argmin(np.sum((points - point) ** 2, axis=2)), points.shape[:2])
     q = np.array([u[i], v[j]])
@@ -162,13 +163,6 @@ def nearest_on(placed: PlacedPatch, point: Vector) -> PatchContact:
     at = spline.derivatives(*q)
     normal = np.cross(np.array(at.u, float), np.array(at.v, float))
     return PatchContact(float(q[0]), float(q[1]), np.array(at.point, float), normal / np.linalg.norm(normal))
-
-
-def sampled(knots: Any, closed: bool, each: int) -> Float[np.ndarray, " samples"]:
-    """Sample a coordinate evenly within each piece, from the first point on; an open one with its end."""
-    knots = np.asarray(knots, float)
-    s = (knots[:-1, None] + np.diff(knots)[:, None] * np.arange(each) / each).ravel()
-    return s if closed else np.append(s, knots[-1])
 
 
 def _within(spline: BicubicSpline, q: Float[np.ndarray, "2"], whole: Float[np.ndarray, "2"]) -> Float[np.ndarray, "2"]:

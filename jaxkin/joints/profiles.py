@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin._traced import traced
-from jaxkin.geometry.curves import Curve, CurvePoint, Spline
+from jaxkin.geometry.curves import Curve, CurvePoint, Spline, sampled_pieces
 
 Pair = Float[np.ndarray, "2"]
 
@@ -36,9 +36,7 @@ class Placed(NamedTuple):
 
     def samples(self) -> tuple[Float[np.ndarray, " samples"], CurvePoint]:
         """Sample the curve evenly within each piece: parameters from its first point, and points."""
-        knots = np.asarray(self.spline.knots)
-        s = (knots[:-1, None] + np.diff(knots)[:, None] * np.arange(SAMPLES) / SAMPLES).ravel()
-        s = s if self.spline.closed else np.append(s, knots[-1])
+        s = sampled_pieces(self.spline.knots, self.spline.closed, SAMPLES)
         return s, self.spline.at(s)
 
 

@@ -7,8 +7,9 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from jaxtyping import Array, Bool
+from jaxtyping import Array
 
+from jaxkin._runs import runs
 from jaxkin.geometry.movements import is_length
 from jaxkin.mechanism.lost_contacts import LostContact
 
@@ -52,17 +53,11 @@ def _of_joint(
     unit, kind, left = mechanism.unit, mechanism.joints[name].kind, farthest.left
     return [
         f"lost contact: joint {name!r} leaves its faces at {loose.sum()} of {len(loose)} poses: "
-        + _listed([_run(inputs, *run, unit) for run in runs(loose)], "; "),
+        + _listed([_run(inputs, first, end - 1, unit) for first, end in runs(loose).tolist()], "; "),
         "  "
         + _listed([_apart(each, unit) for each in contacts], ", ")
         + (f"; what still touches makes it {left}, not {kind}" if left else "; nothing else holds it there"),
     ]
-
-
-def runs(mask: Bool[np.ndarray, " poses"]) -> list[tuple[int, int]]:
-    """Find the first and last index of each run of true values."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(int)))
-    return [(int(first), int(end) - 1) for first, end in edges.reshape(-1, 2)]
 
 
 def _run(inputs: Mapping[str, np.ndarray | Array], first: int, last: int, unit: str) -> str:

@@ -9,9 +9,10 @@ from typing import Any
 
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Bool, Float, Int
+from jaxtyping import Bool, Float
 
 from jaxkin._arguments import by_name, check_mechanism, numbers
+from jaxkin._runs import runs
 from jaxkin._traced import traced
 from jaxkin.effects.forces.drive import drive_forces
 from jaxkin.effects.forces.given import Applied, rows_per_pose
@@ -182,7 +183,7 @@ def equilibrium(
     between = none[:-1] & none[1:]  # two equilibria may be neighbours, with forces between them
     if between.any():
         between[between] = np.abs(force(0.5 * (inputs[:-1] + inputs[1:])[between])) <= least
-    indifferent = _runs(between)
+    indifferent = runs(between)  # the first and the last pose of each, as gaps lie between poses
     at_zero = np.flatnonzero(none & ~np.append(between, False) & ~np.append(False, between))
     forces = np.where(none, 0.0, forces)
     changing = np.flatnonzero(forces[:-1] * forces[1:] < 0)
@@ -238,11 +239,6 @@ def _weight(mechanism: Mechanism, name: str, masses: Masses | None, gravity: Any
     arms = np.linalg.norm(np.asarray(masses.centre) - np.asarray(middle), axis=1) + float(size)
     lever = 1.0 if is_length(name.rpartition(".")[2]) else arms * METRES[mechanism.unit]
     return float(np.linalg.norm(np.asarray(gravity, float)) * np.sum(np.asarray(masses.mass) * lever))
-
-
-def _runs(between: Bool[np.ndarray, " gaps"]) -> Int[np.ndarray, "runs 2"]:
-    """Find the first and the last pose of each run of poses between which something holds."""
-    return np.flatnonzero(np.diff(np.concatenate([[False], between, [False]]).astype(int))).reshape(-1, 2)
 
 
 def _refined(
