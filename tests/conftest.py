@@ -35,14 +35,26 @@ def pytest_configure(config):
         os.environ.setdefault("PYTHONPYCACHEPREFIX", str(config.cache.mkdir("bytecode")))
 
 
+EVERY_CASE = ("tests/docs/test_code_blocks.py", "tests/mechanism/test_hard_cases.py")
+"""Files whose cases are each a test of their own: pages of the documents, and hard mechanisms."""
+
+
+def pytest_addoption(parser):
+    parser.addoption(
+        "--few-cases",
+        action="store_true",
+        help="of each test with several cases the first and the last one, as the others repeat what costs most",
+    )
+
+
 def pytest_collection_modifyitems(config, items):
-    """Run the first and the last case of each test where types and shapes are executed: they are those of functions,
-    and other cases of a test call the same ones."""
-    if not config.getoption("jaxtyping_packages", None):
+    """With `--few-cases` leave out all cases of a test between the first and the last one."""
+    if not config.getoption("few_cases"):
         return
     cases: dict[str, list] = {}
     for item in items:
-        cases.setdefault(item.nodeid.partition("[")[0], []).append(item)
+        own = item.nodeid if item.nodeid.startswith(EVERY_CASE) else item.nodeid.partition("[")[0]
+        cases.setdefault(own, []).append(item)
     kept = {id(each) for some in cases.values() for each in (some[0], some[-1])}
     config.hook.pytest_deselected(items=[item for item in items if id(item) not in kept])
     items[:] = [item for item in items if id(item) in kept]
