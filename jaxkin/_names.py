@@ -83,3 +83,9 @@ def closest(name: object, known: Iterable[str]) -> str:
     """Write the end of a message that lists the known names itself: "; did you mean 'crank'?", or nothing."""
     close = get_close_matches(str(name), list(known), n=1)
     return f"; did you mean {close[0]!r}?" if close else ""
+
+
+def counted(number: int, noun: str, none: str = "0") -> str:
+    """Write a number with a noun in singular or plural, and `none` for zero."""
+    plural = noun + ("es" if noun.endswith("s") else "s")
+    return f"{number or none} {noun if number == 1 else plural}"

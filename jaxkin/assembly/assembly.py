@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from jaxkin._arguments import several, text
 from jaxkin._grouped import SCREEN, grouped, kind_of, product, shortened
-from jaxkin._names import match_parts, nearest
+from jaxkin._names import counted, match_parts, nearest
 from jaxkin.assembly.exported import Exported
 from jaxkin.assembly.from_export import from_export
 from jaxkin.assembly.inference.measured import Measured
@@ -279,5 +279,5 @@ def _faces(part: Part) -> str:
     if not part.is_solid:
         return "no solid: drawn as a small box"
     kinds = Counter(face.surface.kind for face in part.faces)
-    faces = ", ".join(f"{count} {kind}{'s' if count > 1 else ''}" for kind, count in sorted(kinds.items()))
+    faces = ", ".join(counted(count, kind) for kind, count in sorted(kinds.items()))
     return faces or f"{len(part.triangles):,} triangles, no face known"

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from jaxkin._names import counted
 from jaxkin.assembly.to_mechanism import all_contacts, without_contacts
 from jaxkin.contacts.contact import Contact
 from jaxkin.joints.from_contacts import UNCLEAR_MARGIN, joints_from_contacts
@@ -54,7 +55,7 @@ class BlockingContacts:
 
     def __str__(self) -> str:
         said = [str(entry) if isinstance(entry, Contact) else f"joint {entry!r}" for entry in self.what]
-        freedoms = f"{self.freedoms} freedom{'' if self.freedoms == 1 else 's'}"
+        freedoms = counted(self.freedoms, "freedom")
         return f"{' and '.join(said)}: then {freedoms}, moving {', '.join(self.parts)}"
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from jaxkin._names import free_name
+from jaxkin._names import counted, free_name
 from jaxkin.assembly.at_rest import left_at_rest
 from jaxkin.assembly.ignored_contacts import check_pairs, without
 from jaxkin.assembly.inference.inference import Inference
@@ -194,7 +194,7 @@ def _ties(
 
 def _left_out(ignored: int, replaced: Sequence[Contact], by_hand: Mapping, body: Mapping[str, str]) -> list[str]:
     """Tell what the user's words did to the contacts."""
-    notes = [f"{ignored} contact{'' if ignored == 1 else 's'} ignored, as was asked for"] if ignored else []
+    notes = [f"{counted(ignored, 'contact')} ignored, as was asked for"] if ignored else []
     for pair, name in by_hand.items():
         states = [f"({contact.state})" for contact in replaced if _pair(contact.parts, body) == pair]
         if states:

@@ -14,9 +14,9 @@ from rich.table import Table
 from rich.text import Text
 
 from jaxkin._grouped import first_of_each, grouped, kind_of
+from jaxkin._names import counted
 from jaxkin.assembly.gears import gear_proposals
 from jaxkin.assembly.inference.inference import INFERRED
-from jaxkin.contacts.contact import counted
 from jaxkin.contacts.reason import advises_tolerance
 from jaxkin.geometry.movements import is_length
 from jaxkin.joints.evidence import EvidenceKind
@@ -67,7 +67,7 @@ def print_near_misses(contacts: Contacts, mechanism: Mechanism | None, verbose: 
     left = every if mechanism is None else _not_accounted_for(every, mechanism)
     known = f", {len(every) - len(left)} of them of bodies and joints that are known otherwise"
     known = f"{known}{'' if verbose else ' (all: --verbose)'}" if len(left) < len(every) else ""
-    say(f"\n{counted(len(every), 'near miss')}{known}")
+    say(f"\n{counted(len(every), 'near miss', 'no')}{known}")
     shown = [((miss.state, kind_of(miss.reason)), str(miss)) for miss in (every if verbose else left)]
     for line in grouped(shown, verbose):
         say(f"  {line}")

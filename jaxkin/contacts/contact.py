@@ -11,6 +11,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin._grouped import SCREEN, grouped, kind_of, product, shortened
+from jaxkin._names import counted
 from jaxkin.contacts.states import ContactState, find_state
 from jaxkin.geometry.pose import Vector
 from jaxkin.geometry.surfaces import Surface
@@ -106,13 +107,13 @@ class Contacts(Sequence[Contact]):
 
     def describe(self, verbose: bool = False) -> str:
         """Write contacts, near misses and notes as text; many of one kind are summarised, unless `verbose`."""
-        lines = [counted(len(self), "contact")]
+        lines = [counted(len(self), "contact", "no")]
         lines += [f"  {line}" for line in (self._table() if verbose or len(self) <= SCREEN else self._counts())]
         nearly = [((miss.state, kind_of(miss.reason)), str(miss)) for miss in self.near_misses]
         notes = [(kind_of(note.rpartition(": ")[2]), note) for note in self.notes]
         for noun, entries in (("near miss", nearly), ("note", notes)):
             if entries:
-                lines += [counted(len(entries), noun), *(f"  {line}" for line in grouped(entries, verbose))]
+                lines += [counted(len(entries), noun, "no"), *(f"  {line}" for line in grouped(entries, verbose))]
         return "\n".join(lines)
 
     def _table(self) -> list[str]:
@@ -139,9 +140,3 @@ class Contacts(Sequence[Contact]):
 def _counted(found: Counter[str]) -> list[str]:
     """Write each name with its number, the most frequent first."""
     return [f"{count} {name}" for name, count in found.most_common()]
-
-
-def counted(number: int, noun: str) -> str:
-    """Write a number with a noun in singular or plural, "no" for zero."""
-    plural = noun + ("es" if noun.endswith("s") else "s")
-    return f"{number or 'no'} {noun if number == 1 else plural}"

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from jaxkin._files import whole
+from jaxkin._names import counted
 from jaxkin.design.objective import Objective
 from jaxkin.geometry.characteristic_length import centroid_and_length
 from jaxkin.geometry.movements import is_length
@@ -93,7 +94,7 @@ class Optimum:
     def __str__(self) -> str:
         lines = [
             f"Optimum {self.value:.6g}{'' if self.feasible else f', infeasible by {self.violation:.1g}'}, from "
-            f"{len(self.losses)} start{'s' if len(self.losses) > 1 else ''} in {self.seconds:.1f} s",
+            f"{counted(len(self.losses), 'start')} in {self.seconds:.1f} s",
             f"  {self.reason}",
             f"  {self.moves}",
         ]

@@ -20,7 +20,7 @@ from jax import dtypes
 from jaxtyping import Array, Float
 
 from jaxkin._arguments import by_name, check_mechanism, one_number, text, whole_number
-from jaxkin._names import listed
+from jaxkin._names import counted, listed
 from jaxkin._traced import traced
 from jaxkin.effects.mode_plot import draw_modes
 from jaxkin.effects.mode_search import FoundPoses, PoseFeatures, Starts, find_modes, wrap_angles
@@ -130,7 +130,7 @@ class AssemblyModes:
 
     def __str__(self) -> str:
         inputs = listed([f"{name} = {value:.6g}" for name, value in self.inputs.items()])
-        head = f"{len(self)} assembly mode{'' if len(self) == 1 else 's'} for {inputs}: "
+        head = f"{counted(len(self), 'assembly mode')} for {inputs}: "
         if self.complete:
             head += "all there are, by formulas"
         else:

@@ -18,7 +18,7 @@ from jax import dtypes
 from jaxtyping import Float, Int
 
 from jaxkin._arguments import by_name
-from jaxkin._names import listed, nearest
+from jaxkin._names import counted, listed, nearest
 from jaxkin.effects.assembly_modes import AssemblyModes
 from jaxkin.effects.grid_steps import GridSteps
 from jaxkin.effects.pose_plot import save_rows
@@ -74,7 +74,7 @@ class ModeRegions:
         (one, first), (other, second) = self.inputs.items()
         count = len(self.regions)
         lines = [
-            f"{len(self.modes)} assembly mode{'' if len(self.modes) == 1 else 's'} in {count} "
+            f"{counted(len(self.modes), 'assembly mode')} in {count} "
             f"region{'' if count == 1 else 's'} over {len(first)} x {len(second)} values of {one} and {other}"
         ]
         for modes, poses in zip(self.regions, self.poses, strict=True):
@@ -183,6 +183,6 @@ def _check_idle(mechanism: Mechanism, loop_groups: Sequence) -> None:
         idle = len(freedoms[groups.index(loop_group.members)].motions) - len(loop_group.inputs)
         if idle:
             raise ValueError(
-                f"the loops have {idle} idle freedom{'' if idle == 1 else 's'}, such as the spin of a rod between two "
+                f"the loops have {counted(idle, 'idle freedom')}, such as the spin of a rod between two "
                 "balls, so that one mode is many poses: make one ball of each such rod a universal joint"
             )

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from jaxkin._grouped import SCREEN, grouped, kind_of, shortened
-from jaxkin._names import listed
+from jaxkin._names import counted, listed
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.units import unit_name
 from jaxkin.joints.evidence import EvidenceKind
@@ -34,7 +34,7 @@ def describe_mechanism(mechanism: Mechanism, verbose: bool = False) -> str:
     unit = f", lengths in {unit_name(mechanism.unit)}" if mechanism.unit else ""
     moving = len(mechanism.parts) - len(mechanism.fixed)
     fixed = (listed if brief else ", ".join)(mechanism.fixed)
-    lines = [f"Mechanism of {len(mechanism.parts)} parts ({moving} moving), fixed: {fixed}{unit}", ""]
+    lines = [f"Mechanism of {counted(len(mechanism.parts), 'part')} ({moving} moving), fixed: {fixed}{unit}", ""]
     lines += [*_bodies(mechanism), ""] if brief else []
     joints = [joint for joint in mechanism.all_joints if joint.freedoms or not brief]
     lines += _joints(joints)

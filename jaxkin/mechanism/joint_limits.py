@@ -17,7 +17,7 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float, Int
 
-from jaxkin._names import listed
+from jaxkin._names import counted, listed
 from jaxkin.geometry.movements import is_length
 from jaxkin.joints.evidence import EvidenceKind
 from jaxkin.joints.joint import Joint
@@ -201,8 +201,7 @@ def limit_report(
         low, high = each.limits
         of = unit if each.length else "rad"
         lines.append(
-            f"beyond its limits: {each.name} at {each.poses} pose{'' if each.poses == 1 else 's'}, up to "
-            f"{each.excess:.4g} {of} ".rstrip()
+            f"beyond its limits: {each.name} at {counted(each.poses, 'pose')}, up to {each.excess:.4g} {of} ".rstrip()
             + f" {'below' if each.worst < low else 'above'} its limits {low:.4g} to {high:.4g}, at pose {each.at}"
         )
     if len(order) > MAX_REPORTED_COORDINATES:

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from jaxkin._names import listed
+from jaxkin._names import counted, listed
 from jaxkin._traced import traced
 from jaxkin.joints.subgroups import Subgroup, subgroup
 from jaxkin.linkage.joint_pattern import letter, loop_name
@@ -71,7 +71,7 @@ class Step:
         count = "1 " if self.loops == 1 else ""
         coupled = f"{' with ' if self.loops else ''}{listed(self.couplings)}" if self.couplings else ""
         what = f"{count}{self.loop_class}{coupled} over {', '.join(self.parts)}"
-        equations = f"{_count(len(self.unknowns), 'unknown')} of {of_joints}, {_count(self.equations, 'equation')}"
+        equations = f"{counted(len(self.unknowns), 'unknown')} of {of_joints}, {counted(self.equations, 'equation')}"
         return f"{after}{what}: {equations}{redundant}{free}{follow}{merged}; {self.method} ({self.why})"
 
 
@@ -176,7 +176,7 @@ def _loop_class(loop_group: DrivenLoopGroup, number: int, group: Group) -> str:
     loops = _loops(loop_group, number)
     kinds = [_kind(loop_group.system, loop) for loop in loops]
     if len(loops) != 1:
-        return " and ".join(_count(times, f"{kind} loop") for kind, times in Counter(kinds).items())
+        return " and ".join(counted(times, f"{kind} loop") for kind, times in Counter(kinds).items())
     letters = {}
     for place, movements in enumerate(loop_group.system.movements):
         unknown = set(loop_group.system.span(place)) - set(loop_group.system.driven)
@@ -198,7 +198,3 @@ def _kind(system: LoopSystem, loop: int) -> str:
     if loop in system.sections.spherical:
         return "spherical"
     return "Schoenflies" if loop in system.sections.one_rotation else "spatial"
-
-
-def _count(number: int, what: str) -> str:
-    return f"{number} {what}{'' if number == 1 else 's'}"

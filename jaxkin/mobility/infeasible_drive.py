@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jaxkin._names import listed
+from jaxkin._names import counted, listed
 from jaxkin.joints.evidence import EvidenceKind
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.first_order import independent
@@ -94,7 +94,7 @@ def _why_too_many(
     order = [column for group in choices for column in group]
     joints = sorted((column for column in columns if column in order), key=order.index)
     kept = independent_subset(found, joints, of_targets)
-    freedoms = f"{len(found.motions)} freedom{'' if len(found.motions) == 1 else 's'}"
+    freedoms = counted(len(found.motions), "freedom")
     if (followed := independent(found.motions, columns, found.thresholds)) < len(found.motions):
         freedoms += f", {followed} of them for these"
     others = [group for group in _surest(found, choices) if not set(group) & set(kept)]

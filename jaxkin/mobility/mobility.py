@@ -14,7 +14,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin._memory import once_for_each
-from jaxkin._names import listed
+from jaxkin._names import counted, listed
 from jaxkin.joints.subgroups import Subgroup
 from jaxkin.linkage.first_order import EQUATIONS, independent, without
 from jaxkin.linkage.linkage import Linkage
@@ -76,10 +76,10 @@ class Mobility:
 
     def __str__(self) -> str:
         idle = f", {self.idle_freedoms} of them idle: {listed(list(map(str, self.idle_motions)))}" if self.idle else ""
-        freedoms = f"{self.freedoms} freedom{'' if self.freedoms == 1 else 's'}"
+        freedoms = counted(self.freedoms, "freedom")
         if self.spinning:
             freedoms += f" ({self.spins} of them of parts that only spin: {listed(self.spinning)})"
-        return f"{freedoms}{idle}, {self.redundant} redundant equation{'' if self.redundant == 1 else 's'}"
+        return f"{freedoms}{idle}, {counted(self.redundant, 'redundant equation')}"
 
 
 def mobility(linkage: Linkage, unit: str = "") -> Mobility:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from jaxkin._files import whole
+from jaxkin._names import counted
 from jaxkin.contacts.contact import Contact
 from jaxkin.contacts.tolerance import outline_length
 from jaxkin.geometry.part import Part
@@ -56,10 +57,10 @@ def draw_gallery(assembly: Assembly, path: Path | str, *, contacts: Sequence[Con
         draw_contacts(sheet._replace(canvas=canvas), [(region, contact)], (left, top + CAPTION))
         state = contact.contact_state
         sheet.write((left, top + 6), f"({contact.state})  {state.name}", 9, INK, weight="bold")
-        freedoms = f"{state.freedoms} freedom{'' if state.freedoms == 1 else 's'}"
+        freedoms = counted(state.freedoms, "freedom")
         sheet.write((left, top + 29), f"{contact.region}, {freedoms}", 7, GREY)
     sheet.write((MARGIN, 50), fitted(assembly.source, sheet.width - 2 * MARGIN, 13, "bold"), 13, INK, weight="bold")
-    sheet.write((MARGIN, 87), f"{len(contacts)} contact{'' if len(contacts) == 1 else 's'}", 9, GREY)
+    sheet.write((MARGIN, 87), counted(len(contacts), "contact"), 9, GREY)
     draw_legend(sheet, entries)
     with whole(Path(path)) as draft:
         sheet.save(draft)

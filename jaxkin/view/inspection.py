@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from jaxkin._files import whole
-from jaxkin.contacts.contact import Contact, counted
+from jaxkin._names import counted
+from jaxkin.contacts.contact import Contact
 from jaxkin.contacts.tolerance import outline_length
 from jaxkin.geometry.units import unit_name
 from jaxkin.view.callouts import CHAIN, COLORS, draw_axes, draw_contacts, draw_states
@@ -64,8 +65,8 @@ def draw_inspection(
     else:
         draw_states(sheet, contacts, corner)
     sheet.write((MARGIN, 50), fitted(assembly.source, sheet.width - 2 * MARGIN, 13, "bold"), 13, INK, weight="bold")
-    facts = [counted(len(assembly.parts), "part"), counted(len(contacts), "contact")]
-    facts += [counted(len(mechanism.all_joints), "joint")] if mechanism else []
+    facts = [counted(len(assembly.parts), "part", "no"), counted(len(contacts), "contact", "no")]
+    facts += [counted(len(mechanism.all_joints), "joint", "no")] if mechanism else []
     sheet.write((MARGIN, 87), "  ·  ".join([*facts, f"lengths in {unit_name(assembly.unit)}"]), 9, GREY)
     draw_legend(sheet, entries)
     draw_scale(sheet, assembly.unit)

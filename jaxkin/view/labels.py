@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin._names import counted
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.units import unit_name
 from jaxkin.solve.status import Status
@@ -61,7 +62,7 @@ def headline(motion: Motion) -> tuple[str, str]:
     """Tell what drives the motion over which range, and how many of its poses were not closed or lost contact."""
     drives = _some([f"{entry.name}, {_range(entry)}" for entry in inputs(motion)], "; ")
     status = np.asarray(motion.status)[~np.asarray(motion.on_branch)]
-    facts = [f"{len(motion)} pose{'' if len(motion) == 1 else 's'}"]
+    facts = [counted(len(motion), "pose")]
     if len(status):
         codes, numbers = np.unique(status, return_counts=True)
         causes = (f"{number} {Status(code).name.lower()}" for code, number in zip(codes, numbers, strict=True))

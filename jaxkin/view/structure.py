@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from jaxkin._files import DPI
+from jaxkin._names import counted
 from jaxkin.view.graph import Diagram, colors, draw_graph, lines_of, places, reach_of_names
 from jaxkin.view.illustration import INK
 from jaxkin.view.sheet import GREY, Place, clip
@@ -63,7 +64,7 @@ def plot_structure(diagram: Diagram) -> Figure:
     def write(x: float, y: float, text: str, size: int, color: object, weight: str = "normal") -> None:
         figure.text(x / width, y / height, text, size=size, color=color, weight=weight, va="center", parse_math=False)
 
-    loops = f"{len(diagram.loops)} loop{'' if len(diagram.loops) == 1 else 's'}"
+    loops = counted(len(diagram.loops), "loop")
     write(0.2, height - 0.3, f"{len(diagram.parts)} parts, {len(diagram.joints)} joints, {loops}", 11, INK, "bold")
     if not drawn:
         write(across[0], TITLE_HEIGHT + high / 2, f"a tree of {len(tree)} elements:\nprint the structure", 7, GREY)
