@@ -2,11 +2,13 @@
 
 import jax
 import numpy as np
+import pytest
 
 from jaxkin import design
 from reference.mechanisms import fourbar_through
 
 
+@pytest.mark.long
 def test_links_in_line_have_finite_derivatives_in_both_modes():
     """Crank and coupler of (0, 0), (1, 0), (3, 0) are in line, where the angle turns back from pi: its slope is on
     neither side, and leaves those of the other poses alone."""

@@ -160,6 +160,7 @@ def test_a_circle_has_neither(motion):
     assert "no cusp, no crossing" in str(found)
 
 
+@pytest.mark.long
 def test_a_point_at_rest_has_neither_and_says_so(motion, tmp_path):
     """The pivot of the crank, and a point of the ground; that beside the pivot, by a millionth of the crank, draws."""
     for part, point in (("crank", (0.0, 0.0, 0.0)), ("ground", (3.0, 4.0, 5.0))):
@@ -195,6 +196,7 @@ def test_it_prints_draws_and_saves(motion, tmp_path):
     np.testing.assert_allclose(table["x"], found.points[:, 0], rtol=1e-8)
 
 
+@pytest.mark.long
 def test_what_makes_no_sense_is_refused(motion):
     with pytest.raises(ValueError, match="no part 'copler'; did you mean 'coupler'"):
         jk.coupler_curve(motion, "copler", (0, 0, 0))

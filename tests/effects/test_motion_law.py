@@ -232,6 +232,7 @@ def test_screw_axes_print_their_ranges_and_where_there_are_none():
     ]
 
 
+@pytest.mark.long
 def test_the_coupler_of_a_parallelogram_has_no_screw_axis():
     """It slides on circles: what rounding turns it by is no axis."""
     places = {"A": (0, 0, 0), "B": (10, 3, 0), "C": (42, 3, 0), "D": (32, 0, 0)}

@@ -110,6 +110,7 @@ def test_nothing_is_swept_past_poses_that_are_not_closed():
     np.testing.assert_allclose(found.box, [[-5, -3, -2], [85, 3, 2]], atol=0.25)  # half a step
 
 
+@pytest.mark.long
 def test_a_turn_past_poses_that_are_not_closed_is_no_step_of_the_motion(arm):
     """Two poses a third of a turn apart are no neighbours; those that are have the numbers of the motion."""
     motion = with_open_poses(arm.sweep({"A": np.array([0.0, 1.0, 2.0, 4.0])}), 1)

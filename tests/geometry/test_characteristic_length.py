@@ -30,6 +30,7 @@ def test_points_that_are_one_but_for_rounding_have_the_length_of_one(kind, place
     assert centroid_and_length((one + noise).astype(kind), np)[1] == 1.0
 
 
+@pytest.mark.long
 def test_derivatives_are_finite_where_points_are_one():
     found = jax.grad(lambda points: centroid_and_length(points)[1])(jnp.ones((4, 3)))
     np.testing.assert_array_equal(found, 0.0)

@@ -125,6 +125,7 @@ def about(one, other):
     return np.unwrap(np.arctan2(turn[:, 1, 0], turn[:, 0, 0]))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("belt", [1.0, -1.0])
 @pytest.mark.parametrize("flipped", [False, True])
 def test_gears_and_belts_obey_the_solver_on_a_carrier_that_moves(tmp_path, belt, flipped):

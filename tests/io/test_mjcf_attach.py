@@ -124,6 +124,7 @@ def test_what_cannot_be_attached_is_refused(tmp_path, attach, error, message):
         jk.load(written(tmp_path, attach))
 
 
+@pytest.mark.long
 def test_models_that_are_missing_or_attach_themselves_are_refused(tmp_path):
     path = written(tmp_path, CASES["a body"])
     (tmp_path / "sub" / "arm.xml").unlink()

@@ -16,6 +16,7 @@ THREE = f"""<robot name='r'>{LINKS}
 %s</robot>"""
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("moved", ["", "<transmission name='t'><joint name='j1'/></transmission>"])
 def test_a_leader_keeps_its_zero(moved, tmp_path):
     """With j1 = u: j2 = 0.25 - 2 u and j3 = 3 j2 - 1, whether the file says that j1 is moved or not."""

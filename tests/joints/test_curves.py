@@ -172,6 +172,7 @@ def test_a_study_says_every_joint_along_a_curve(made, tmp_path):
                 assert curve.closed == like.closed
 
 
+@pytest.mark.long
 def test_assembled_in_another_pose_it_moves_on_from_there(oval, swung):
     motion = oval.sweep({"shaft": TURN})
     there = oval.at(motion, 5)
@@ -180,6 +181,7 @@ def test_assembled_in_another_pose_it_moves_on_from_there(oval, swung):
         np.testing.assert_allclose(again.coordinates[name], q[5:13] - q[5], atol=1e-11)  # rounding
 
 
+@pytest.mark.long
 def test_the_ends_of_an_open_curve_are_limits():
     joint = on_line()
     np.testing.assert_allclose(joint.limits[0], (-80.0, 70.0), atol=1e-12)

@@ -13,6 +13,7 @@ from jaxkin.geometry.pose import rotation, unit
 from reference.cranes import IN_PLANE, STROKES, Z, crane, in_plane, in_space, rod_on_ball_and_cross
 
 
+@pytest.mark.long
 def test_a_drive_out_of_the_plane_is_solved_in_space():
     """The pin slides in both holes of the boom by what is asked for; the boom rests."""
     pin = jk.cylindrical("eye", "rod", "boom", point=(4, 0, 0), axis=Z)
@@ -79,6 +80,7 @@ def test_rates_of_poses_out_of_the_plane_are_those_in_space():
     np.testing.assert_allclose(motion.sigma_min, replace(motion, mechanism=in_space(mechanism)).sigma_min, rtol=1e-9)
 
 
+@pytest.mark.long
 def test_frames_that_are_turned_in_a_joint_leave_the_plane():
     """The rod is turned in its tube against its hinge: the cylinder turns back."""
     mechanism = crane()
@@ -92,6 +94,7 @@ def test_frames_that_are_turned_in_a_joint_leave_the_plane():
     np.testing.assert_allclose(np.abs(motion.coordinates["cylinder"][:, 1]), 0.3, atol=1e-12)
 
 
+@pytest.mark.long
 def test_all_assembly_modes_are_found_with_an_idle_rod():
     """The boom on either side of the line from its hinge to the foot; the cross may be turned over as well."""
     modes = jk.assembly_modes(rod_on_ball_and_cross(height=1.0), {"cylinder.z": 0.3})

@@ -27,6 +27,7 @@ def test_the_height_of_the_cylinder_does_not_matter():
     np.testing.assert_allclose(motion.coordinates["boom"][:, 0], boom_angle(STROKES), atol=1e-13)
 
 
+@pytest.mark.long
 def test_rods_that_turn_idly_rest_where_they_are_in_one_line():
     """The eye turns on a swivel in the line of the rod: swivel and cylinder turn together, and move nothing."""
     along = unit(np.array([1.0, 4.0, 0.0]))
@@ -41,6 +42,7 @@ def test_rods_that_turn_idly_rest_where_they_are_in_one_line():
         np.testing.assert_allclose(one, other, atol=1e-12)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("normal", range(3))
 def test_balls_and_crosses_turn_in_the_plane_like_hinges(normal):
     """A boom, a tube on a cross and a rod on a ball, with the hinge of the boom along x, y or z."""

@@ -36,6 +36,7 @@ def same(one, other):
     np.testing.assert_allclose(one, other, rtol=0, atol=2e-13)
 
 
+@pytest.mark.long
 def test_a_gear_in_front_of_a_linkage_turns_its_crank():
     motion = build([WHEEL, *FOUR_BAR], [jk.gear("A", "B", -0.5)]).sweep({"A": TURNS}, throw=True)
     direct = build(FOUR_BAR).sweep({"B": -0.5 * TURNS}, throw=True)
@@ -137,6 +138,7 @@ def test_a_polynomial_holds_both_ways():
     same(mechanism.sweep({"B": wanted}, throw=True).coordinates["A"][:, 0], angles)
 
 
+@pytest.mark.long
 def test_beyond_the_largest_value_of_a_polynomial_nothing_is_reached():
     wheels = [jk.revolute(name, "ground", name.lower(), point=(k, 0, 0), axis=Z) for k, name in enumerate("AB")]
     mechanism = build(wheels, [jk.polynomial("B", "A", [0.0, 1.0, -0.5])])

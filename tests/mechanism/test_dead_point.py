@@ -74,6 +74,7 @@ def test_back_into_the_range_from_a_limit():
         assert np.all(motion.closed) or "dead point of D.phi" in str(motion)
 
 
+@pytest.mark.long
 def test_a_regular_pose_keeps_its_statuses():
     motion = slider_crank(1.0, CRANK, ROD, offset=0.0).sweep({"S": np.array([0.0, 80.0])})
     assert np.asarray(motion.status).tolist() == [Status.CLOSED, Status.UNREACHABLE]

@@ -54,6 +54,7 @@ def test_closed_poses_stay_and_held_coordinates_too():
         np.testing.assert_allclose(held.motion.coordinates[name], rows, atol=1e-11)
 
 
+@pytest.mark.long
 def test_a_heavy_coordinate_moves_as_if_it_were_held():
     given = random_rows(FOURBAR, 5)
     heavy = jk.project(FOURBAR, given, weights={"A.phi": 1e4})
@@ -138,6 +139,7 @@ def test_wrong_coordinates_are_refused(given, more, message):
         jk.project(FOURBAR, given, **more)
 
 
+@pytest.mark.long
 def test_a_mechanism_without_coordinates_is_refused():
     welded = jk.Mechanism.build(fixed=["base"], joints=[jk.fixed("weld", "base", "part")])
     with pytest.raises(ValueError, match="no joint of the mechanism has a coordinate"):

@@ -19,6 +19,7 @@ def planar(linkage, *points):
     return place, axes, linkage.build(place[0], axes[0])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "points",
     [

@@ -19,6 +19,7 @@ def test_zero_at_change_points_only():
     assert np.all(found[[0, 3]] < 1e-7) and np.all(found[[1, 2, 4]] > 0.05)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("angle", [0.3, 1.0, np.pi / 2])
 def test_a_range_that_ends_at_a_change_point_stays_on_its_branch(angle):
     """The other branch is 0.01 away beside it; rounding of 1e-15 moves a pose by its root."""

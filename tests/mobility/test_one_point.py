@@ -11,6 +11,7 @@ from reference.spatial import spherical_fourbar
 LONG = pytest.mark.long
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("centre", [1.0, pytest.param(1000.0, marks=LONG)])
 @pytest.mark.parametrize("digits", [15, pytest.param(9, marks=LONG)])
 def test_a_spherical_linkage_whose_points_are_one_but_for_rounding_moves(centre, digits):

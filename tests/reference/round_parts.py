@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
+import pytest
 import trimesh
 
 from jaxkin.assembly.assembly import Assembly
@@ -16,6 +17,8 @@ from jaxkin.mechanism.mechanism import Mechanism
 
 Z = np.array([0.0, 0.0, 1.0])
 SECTIONS = 48
+SEEDS = [0, pytest.param(1, marks=pytest.mark.long)]
+"""Seeds of `anywhere`: what is drawn at a place, a size and in an order at random is drawn twice."""
 TO_X = np.array([[0.0, 0, 1, 0], [0, 1, 0, 0], [-1, 0, 0, 0], [0, 0, 0, 1]])
 """The pose that turns the axis z into x."""
 

@@ -40,6 +40,7 @@ def test_orthonormal_rows_are_made_by_the_pseudoinverse(rows, columns):
         np.testing.assert_allclose(orthonormal.T @ made_by, inverse, atol=allowed * np.abs(inverse).max(initial=0.0))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("n", [1, 3, 4, 6, 17, 30])
 def test_inverse_roots_are_lower_and_make_the_matrix_one(n):
     factor = np.random.default_rng(n).normal(size=(n, n, POSES))

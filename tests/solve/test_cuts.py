@@ -77,6 +77,7 @@ def test_only_balls_of_one_loop_that_nothing_drives_are_cut():
         assert ball not in free.cuts[0] and len(free.cuts[0]) == len(driven.cuts[0]) - 1
 
 
+@pytest.mark.long
 def test_a_loop_whose_only_unknowns_are_those_of_a_cut_ball_is_followed():
     """There is no block of equations to solve, and no determinant: the ball turns back what the arm turns."""
     mechanism = Mechanism.build(

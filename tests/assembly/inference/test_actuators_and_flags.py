@@ -5,7 +5,7 @@ Each is drawn with a known truth, at a place, a size and in an order at random: 
 
 import pytest
 
-from reference.round_parts import across, anywhere, assembly, block, owners, part, pin, ring
+from reference.round_parts import SEEDS, across, anywhere, assembly, block, owners, part, pin, ring
 
 PIVOT = pin(4.0, 0, 60, (100.0, 60.0))
 LEVER = part("lever", ring(4.1, 9.0, 5, 15, (100.0, 60.0)), block((108, 57, 5), (140, 63, 15)))
@@ -17,7 +17,7 @@ def of(seed, *parts):
     return owners(mechanism), mechanism
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("floor", "held"), [(30.0, False), (18.0, True)])
 def test_what_ends_behind_the_floor_of_its_bore_is_no_screw_on_the_bush_beyond(seed, floor, held):
     """The piston of a cylinder is not, with the wall of the eye between; a set screw in a hole that comes out is."""
@@ -28,7 +28,7 @@ def test_what_ends_behind_the_floor_of_its_bore_is_no_screw_on_the_bush_beyond(s
     assert any("the screw 'rod' holds" in note for note in mechanism.history) == held
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("screw_at", "held"), [(30.0, True), (None, False)])
 def test_a_screw_through_its_flag_keeps_a_pin_from_turning(seed, screw_at, held):
     """The pin fits the ear in which it is, and would turn there without the screw, with what is tight on it."""
@@ -44,7 +44,7 @@ def test_a_screw_through_its_flag_keeps_a_pin_from_turning(seed, screw_at, held)
     assert (body["flagged"] == body["base"]) == held and body["link"] != body["base"]
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("depth", "held"), [(-3.0, False), (-6.0, True)])
 def test_a_rivet_that_ends_in_its_slider_clamps_that_on_no_slot(seed, depth, held):
     """One that goes on into the slot, as a screw does into a profile, does."""
@@ -57,7 +57,7 @@ def test_a_rivet_that_ends_in_its_slider_clamps_that_on_no_slot(seed, depth, hel
     assert any("ends in a slot" in note for note in mechanism.history) == held
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("kind", "held"), [("steerer", True), ("motor", False), ("loose", False)])
 def test_a_screw_across_a_slit_pinches_a_steerer_but_no_motor(seed, kind, held):
     """The steerer is one solid with the crown of its fork; what has screw holes round about its shaft is a motor."""
@@ -71,7 +71,7 @@ def test_a_screw_across_a_slit_pinches_a_steerer_but_no_motor(seed, kind, held):
     assert (body["hub"] == body["base"]) == held
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("radius", "held"), [(8.01, True), (8.0, False)])
 def test_a_cup_with_interference_is_pressed_into_its_only_hole(seed, radius, held):
     """With an exact fit nothing that is drawn keeps it from turning."""
@@ -82,7 +82,7 @@ def test_a_cup_with_interference_is_pressed_into_its_only_hole(seed, radius, hel
     assert bool(told) == held and not any("play" in note for note in told)  # nothing else is on the cup
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("rib", "held"), [(1.0, True), (6.0, False)])
 def test_a_nut_with_a_rib_is_set_into_its_tube_and_its_spindle_turns(seed, rib, held):
     """What reaches farther than a key is no sleeve."""
@@ -95,7 +95,7 @@ def test_a_nut_with_a_rib_is_set_into_its_tube_and_its_spindle_turns(seed, rib, 
     assert not held or body["nut"] == body["tube"] != body["spindle"]
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 def test_the_tube_of_an_actuator_is_no_nut_of_the_one_that_slides_in_it(seed):
     base = part("base", block((-30, -30, -120), (30, 30, -100)), PIVOT)
     outer, gland = part("outer", ring(17.0, 21.0, -100, 60)), part("gland", ring(13.05, 17.0, 50, 60))

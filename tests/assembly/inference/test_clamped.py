@@ -8,7 +8,7 @@ import pytest
 import trimesh
 
 from jaxkin.geometry.surfaces import Sphere
-from reference.round_parts import across, anywhere, assembly, block, moving, owners, part, pin, ring
+from reference.round_parts import SEEDS, across, anywhere, assembly, block, moving, owners, part, pin, ring
 
 BASE = block((-60, -60, -140), (60, 60, -130))
 LEVER = part("lever", ring(4.1, 9.0, 5, 15, (60.0, 0.0)), block((68, -3, 5), (100, 3, 15)))
@@ -20,7 +20,7 @@ def of(drawn, seed):
     return owners(mechanism), mechanism
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("tip", "held"), [(5.0, True), (11.0, False)])
 def test_a_set_screw_holds_a_hub_on_its_shaft_where_it_reaches_it(seed, tip, held):
     base = part("base", BASE, ring(5.0, 12.0, -60, -40), ring(5.0, 12.0, 40, 60))
@@ -32,7 +32,7 @@ def test_a_set_screw_holds_a_hub_on_its_shaft_where_it_reaches_it(seed, tip, hel
     assert (body["lever"] == body["shaft"]) == held
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("hole", "held"), [(True, True), (False, False)])
 def test_a_round_collar_with_a_hole_across_it_is_clamped_on_its_shaft(seed, hole, held):
     base = part("base", BASE, ring(5.1, 12.0, -60, -40), block((-20, 11, -60), (20, 30, -40)))
@@ -44,7 +44,7 @@ def test_a_round_collar_with_a_hole_across_it_is_clamped_on_its_shaft(seed, hole
     assert any("a screw that is not drawn" in note for note in mechanism.notes) == held
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("shoulder", "locked"), [(False, True), (True, False)])
 def test_a_nut_locks_a_thread_but_not_a_hinge_between_it_and_a_shoulder(seed, shoulder, locked):
     """The stud of the lever goes through the base to the nut; with a shoulder on the other side the lever turns."""
@@ -59,7 +59,7 @@ def test_a_nut_locks_a_thread_but_not_a_hinge_between_it_and_a_shoulder(seed, sh
     assert (body["lever"] == body["base"]) == locked
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("length", "held"), [(10.0, True), (40.0, False)])
 def test_a_flat_of_a_shaft_holds_a_short_hub(seed, length, held):
     """A longer one slides on it."""
@@ -73,7 +73,7 @@ def test_a_flat_of_a_shaft_holds_a_short_hub(seed, length, held):
     assert not held or body["crank"] == body["shaft"]
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 def test_a_roller_turns_on_the_pin_of_a_bracket_though_it_is_wider(seed):
     base = part("base", block((-30, -30, -10), (80, 30, 0)), ring(3.0, 8.0, -10, 0), pin(4.0, 0, 20, (60.0, 0.0)))
     roller = part("roller", ring(3.0, 9.0, 0.5, 25))
@@ -82,7 +82,7 @@ def test_a_roller_turns_on_the_pin_of_a_bracket_though_it_is_wider(seed):
     assert body["pin"] == body["base"] != body["roller"]
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 def test_a_shaft_in_bushes_belongs_to_its_crank(seed):
     """Bushes and crank fit alike: what bushes are on turns in them."""
     base = part("base", BASE, ring(7.0, 14.0, -60, -40), ring(7.0, 14.0, 20, 40))
@@ -92,7 +92,7 @@ def test_a_shaft_in_bushes_belongs_to_its_crank(seed):
     assert body["shaft"] == body["crank"] != body["base"] == body["bush -60"] == body["bush 20"]
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 def test_a_lone_shaft_turns_in_its_bushes_and_is_more_than_a_pin(seed):
     """Both bushes keep their seat, and the turn of the shaft is one of use."""
     base = part("base", BASE, ring(7.0, 14.0, -60, -40), ring(7.0, 14.0, 20, 40))
@@ -103,7 +103,7 @@ def test_a_lone_shaft_turns_in_its_bushes_and_is_more_than_a_pin(seed):
     assert not any("only spins" in note for note in mechanism.notes)
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("bore", "slides"), [(5.4, True), (5.0, False)])
 def test_a_loose_bar_that_sticks_out_on_both_sides_slides(seed, bore, slides):
     base = part("base", block((-60, -60, -8), (80, -12, 8)), ring(bore, 14.0, -8, 8), pin(4.0, 0, 20, (60.0, 0.0)))
@@ -111,7 +111,7 @@ def test_a_loose_bar_that_sticks_out_on_both_sides_slides(seed, bore, slides):
     assert (body["bar"] != body["base"]) == slides
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 def test_a_flange_with_a_pattern_is_screwed_on_and_not_seated_on_its_screw(seed):
     """The nut fits its screw more tightly than the plate; the holes of its flange are those of the plate."""
     places = [(10.0, 0.0), (-10.0, 0.0)]
@@ -125,7 +125,7 @@ def test_a_flange_with_a_pattern_is_screwed_on_and_not_seated_on_its_screw(seed)
     assert body["nut"] == body["plate"] != body["screw"]
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("bolted", [True, False])
 def test_a_bolt_through_the_ball_of_a_rod_end_holds_it_to_the_lever(seed, bolted):
     """The lever is then on the rod end by its ball; a ball that is only near the lever is not."""
@@ -143,7 +143,7 @@ def test_a_bolt_through_the_ball_of_a_rod_end_holds_it_to_the_lever(seed, bolted
     assert "spherical" in [joint.kind for joint in moving(mechanism)]
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 def test_a_bush_beside_a_disc_is_no_set_screw(seed):
     """A disc in a bore, and a bush in a hole across that bore that ends at the disc: it presses on nothing."""
     base = part("base", BASE, ring(30.0, 40.0, -30, 30), across(ring(6.0, 9.0, 31, 50)))

@@ -8,7 +8,7 @@ import re
 import pytest
 
 import jaxkin as jk
-from reference.round_parts import anywhere, assembly, block, kind_of, owners, part, pin, ring
+from reference.round_parts import SEEDS, anywhere, assembly, block, kind_of, owners, part, pin, ring
 
 PIVOT = pin(4.0, 0, 60, (100.0, 60.0))
 OTHER = part("other lever", ring(4.1, 9.0, 5, 15, (100.0, 60.0)), block((108, 57, 5), (140, 63, 15)))
@@ -37,7 +37,7 @@ def of(seed, *parts):
     return drawn, owners(mechanism), mechanism
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 def test_a_crank_on_a_bolt_turns_where_a_coupler_and_a_rocker_close_a_ring_of_four(seed):
     base = part("base", EYE, block((14, -4, -3), (80, 4, 0)), *stud((0, -60), -3, 18), PIVOT)
     crank = part("crank", ring(3.3, 14.0, 0, 2), block((-56, -4, 0), (-14, 4, 2)), *stud((-60, 0), 0, 12))
@@ -48,7 +48,7 @@ def test_a_crank_on_a_bolt_turns_where_a_coupler_and_a_rocker_close_a_ring_of_fo
     assert mechanism.mobility().useful == 3  # that of the ring, and two of the other lever
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 def test_a_bracket_on_a_bolt_is_clamped_where_it_carries_a_ring_of_four(seed):
     base = part("base", EYE, block((14, -4, -3), (80, 4, 0)), *stud((60, -60), -3, 26), PIVOT)
     bracket = part("bracket", ring(3.3, 14.0, 0, 2), block((-56, -4, 0), (-14, 4, 2)), *stud((-60, 0), 0, 12))
@@ -59,7 +59,7 @@ def test_a_bracket_on_a_bolt_is_clamped_where_it_carries_a_ring_of_four(seed):
     assert mechanism.mobility().useful == 3
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("leaf", [True, False])
 def test_a_leaf_between_two_eyes_turns_on_two_bolts_of_one_axis(seed, leaf):
     """With one bolt only it is a bracket."""
@@ -73,7 +73,7 @@ def test_a_leaf_between_two_eyes_turns_on_two_bolts_of_one_axis(seed, leaf):
     assert not leaf or kind_of(mechanism, "door", "base") == "revolute"
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 def test_a_pedal_on_a_bolt_is_taken_as_clamped_and_told_with_the_line_that_makes_it_a_hinge(seed):
     """Nothing that is drawn tells it from a bracket."""
     base = part("base", EYE, block((14, -4, -3), (80, 4, 0)), PIVOT)

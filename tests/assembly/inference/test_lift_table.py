@@ -59,6 +59,7 @@ def test_it_has_one_freedom_beside_idle_ones(mechanism, exported):
     assert all(owners[one] == owners[other] for one, other in welds)
 
 
+@pytest.mark.long
 def test_what_is_inferred_is_told(mechanism):
     told = [note for note in mechanism.notes if note.startswith("inferred from")]
     assert len(told) == 7 and all("'" in note for note in told)

@@ -8,7 +8,7 @@ import pytest
 import trimesh
 
 from jaxkin.geometry.surfaces import Cone, Sphere
-from reference.round_parts import SECTIONS, across, anywhere, assembly, block, kind_of, owners, part, pin, ring
+from reference.round_parts import SECTIONS, SEEDS, across, anywhere, assembly, block, kind_of, owners, part, pin, ring
 
 PIVOT = pin(4.0, 0, 60, (100.0, 60.0))
 LEVER = part("lever", ring(4.1, 9.0, 5, 15, (100.0, 60.0)), block((108, 57, 5), (140, 63, 15)))
@@ -20,7 +20,7 @@ def of(seed, *parts):
     return owners(mechanism), mechanism
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("low", "high", "held"), [(-7.7, 7.7, False), (-35.0, -20.8, True)])
 def test_a_pin_between_two_shafts_is_their_interlock_and_no_set_screw(seed, low, high, held):
     """It can be tightened from no side; one outside of both is a set screw of the nearer shaft."""
@@ -44,7 +44,7 @@ def test_a_port_through_a_cylinder_and_its_liner_is_no_screw_in_the_piston(seed)
     assert body["liner"] == body["base"] and not any("'liner' to 'piston'" in note for note in mechanism.history)
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("second", "held"), [((8, 20, -10.0), True), ((-20, -8, 10.0), False)])
 def test_screws_that_point_at_a_part_are_beside_each_other(seed, second, held):
     """A plug and a pin in one drilled hole, on both sides of a part, are no pattern."""
@@ -56,7 +56,7 @@ def test_screws_that_point_at_a_part_are_beside_each_other(seed, second, held):
     assert any("2 parallel screws of" in note for note in mechanism.history) == held
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 def test_a_nut_on_a_threaded_bush_goes_with_it(seed):
     """It is on the bush, and does not turn in it as a shaft would."""
     base = part("base", ring(9.0, 20.0, 0, 10), block((20, -4, 0), (60, 4, 10)), PIVOT)
@@ -73,7 +73,8 @@ def ball(radius, side, centre):
     return [(Sphere(np.array([0.0, 0.0, centre]), radius, side), kept if side > 0 else kept[:, ::-1])]
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.long
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("nut", [True, False])
 def test_a_ball_stud_is_screwed_to_the_lever_between_its_collar_and_its_nut(seed, nut):
     base = part("base", ring(5.0, 12.0, 0, 10), block((12, -4, 0), (60, 4, 10)), PIVOT)
@@ -85,7 +86,7 @@ def test_a_ball_stud_is_screwed_to_the_lever_between_its_collar_and_its_nut(seed
     assert body["rod"] != body["stud"] and (not nut or body["stud"] == body["base"])
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("washer", "held"), [(9.0, True), (4.8, False)])
 def test_washers_under_the_screws_in_its_ends_hold_an_axle_to_its_cheeks(seed, washer, held):
     """Those that are narrower than the axle lie on nothing but the axle."""
@@ -104,7 +105,7 @@ def test_washers_under_the_screws_in_its_ends_hold_an_axle_to_its_cheeks(seed, w
     assert not held or body["axle"] == body["base"]
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("play", [0.0, 0.03])
 def test_a_lead_screw_with_its_knob_turns_in_the_nut_of_its_slide(seed, play):
     """Though it has play in its bush: the nut is set into a wide hole of the slide, and is no crank."""
@@ -132,7 +133,7 @@ def cone(first, last, low, high, side):
     return [(Cone(apex, np.array([0.0, 0.0, 1.0]), half_angle, side), triangles if side > 0 else triangles[:, ::-1])]
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("rise", "held"), [(1.0, True), (4.0, False)])
 def test_a_slender_taper_holds_itself_and_the_plug_of_a_cock_turns(seed, rise, held):
     """Half angles of 1.4 degrees, as of Morse, and of 5.7 degrees."""

@@ -5,7 +5,7 @@ Each is drawn with a known truth, at a place, a size and in an order at random: 
 
 import pytest
 
-from reference.round_parts import across, anywhere, assembly, block, kind_of, owners, part, pin, ring
+from reference.round_parts import SEEDS, across, anywhere, assembly, block, kind_of, owners, part, pin, ring
 
 PIVOT = pin(4.0, 0, 60, (100.0, 60.0))
 LEVER = part("pivot lever", ring(4.1, 9.0, 5, 15, (100.0, 60.0)), block((108, 57, 5), (140, 63, 15)))
@@ -17,7 +17,7 @@ def of(seed, *parts):
     return owners(mechanism), mechanism
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("play", "owner"), [(0.3, "base"), (0.0, "fork")])
 def test_a_bolt_belongs_to_the_part_without_play_and_else_to_the_fork(seed, play, owner):
     """The fork turns on its bolt either way."""
@@ -29,7 +29,7 @@ def test_a_bolt_belongs_to_the_part_without_play_and_else_to_the_fork(seed, play
     assert body["bolt"] == body[owner] and kind_of(mechanism, "base", "fork") == "revolute"
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 def test_leaves_that_fill_a_pin_between_its_ends_stop_each_other(seed):
     """Alone each leaf could slide to where the other one is."""
     base = part("base", ring(2.5, 5, -8, 0), ring(2.5, 5, 24.4, 32), block((-40, -20, -8), (-5, 20, 32)))
@@ -42,7 +42,7 @@ def test_leaves_that_fill_a_pin_between_its_ends_stop_each_other(seed):
     assert [kind_of(mechanism, "base", leaf) for leaf in ("one", "other")] == ["revolute", "revolute"]
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("stops", "kind"), [(True, "cylindrical"), (False, "revolute")])
 def test_a_rod_that_stands_in_the_middle_slides_between_stops_that_are_far_away(seed, stops, kind):
     """Without any stop it is taken to turn in the middle."""
@@ -53,7 +53,7 @@ def test_a_rod_that_stands_in_the_middle_slides_between_stops_that_are_far_away(
     assert kind_of(mechanism, "base", "rod") == kind
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("stroke", "held"), [(30.0, False), (5.0, True)])
 def test_a_screw_that_ends_in_a_slot_along_a_finger_guides_it(seed, stroke, held):
     """In a recess that is no longer than its tip it holds."""
@@ -66,7 +66,7 @@ def test_a_screw_that_ends_in_a_slot_along_a_finger_guides_it(seed, stroke, held
     assert any("the screw 'screw' holds" in note for note in mechanism.history) == held
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("length", [1.2, 30.0])
 def test_a_ring_on_the_end_of_a_pin_is_no_rod_that_it_pulls_against_a_lever(seed, length):
     """The pin fits its base exactly, and the lever has play on it."""
@@ -78,7 +78,7 @@ def test_a_ring_on_the_end_of_a_pin_is_no_rod_that_it_pulls_against_a_lever(seed
     assert any("pulls it against 'lever'" in note for note in mechanism.history) == (length > 20)
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("hole", "held"), [(3.0, False), (3.5, True)])
 def test_a_stop_screw_in_its_cap_is_not_one_body_with_the_piston_that_meets_it(seed, hole, held):
     """A rod that stands there with play around it is."""

@@ -5,7 +5,7 @@ Each is drawn with a known truth, at a place, a size and in an order at random: 
 
 import pytest
 
-from reference.round_parts import across, anywhere, assembly, block, moving, owners, part, pin, ring
+from reference.round_parts import SEEDS, across, anywhere, assembly, block, moving, owners, part, pin, ring
 
 BASE = block((-60, -60, -140), (60, 60, -130))
 
@@ -15,7 +15,7 @@ def of(seed, *parts):
     return owners(mechanism), mechanism
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("heads", [True, False])
 def test_a_rivet_that_is_loose_in_all_plates_belongs_to_one_of_them_where_heads_keep_it(seed, heads):
     """Most of the rivet is outside of its holes, as that of a rod on which plates slide."""
@@ -27,7 +27,7 @@ def test_a_rivet_that_is_loose_in_all_plates_belongs_to_one_of_them_where_heads_
     assert body["plate"] != body["base"] and mechanism.mobility().useful
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 def test_a_cup_with_a_pin_across_it_that_carries_a_rod_is_a_piston_and_no_bush(seed):
     cylinder = part("base", ring(20.0, 26.0, -50, 60))
     wrist = across(ring(4.0, 8.0, -19, -8, (0.0, 0.0)), ring(4.0, 8.0, 8, 19, (0.0, 0.0)))
@@ -37,7 +37,7 @@ def test_a_cup_with_a_pin_across_it_that_carries_a_rod_is_a_piston_and_no_bush(s
     assert body["piston"] != body["base"] and body["rod"] != body["piston"] and mechanism.mobility().useful
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 def test_a_piston_ring_has_play_in_its_groove_and_none_in_the_cylinder(seed):
     cylinder = part("base", ring(20.0, 26.0, -50, 60), block((-40, -40, -60), (40, 40, -50)))
     piston = part("piston", pin(19.9, -10, 0), pin(17.0, 0, 2), pin(19.9, 2, 10))
@@ -46,7 +46,7 @@ def test_a_piston_ring_has_play_in_its_groove_and_none_in_the_cylinder(seed):
     assert body["seal"] == body["piston"] and joint.kind == "cylindrical"
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("gland", [True, False])
 def test_a_ring_behind_the_gland_on_a_thinner_end_of_the_rod_is_its_piston(seed, gland):
     cylinder = part("base", ring(20.0, 26.0, -50, 60), block((-40, -40, -60), (40, 40, -50)))
@@ -57,7 +57,7 @@ def test_a_ring_behind_the_gland_on_a_thinner_end_of_the_rod_is_its_piston(seed,
     assert not gland or body["gland"] == body["base"] != body["rod"]
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("slit", "held"), [(1.0, True), (12.0, False)])
 def test_a_screw_across_a_slit_holds_a_lever_on_its_shaft(seed, slit, held):
     base = part("base", BASE, ring(5.0, 12.0, -60, -40), ring(5.0, 12.0, 40, 60))
@@ -68,7 +68,7 @@ def test_a_screw_across_a_slit_holds_a_lever_on_its_shaft(seed, slit, held):
     assert (body["lever"] == body["shaft"]) == held
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("guided", [False, True])
 def test_what_fits_a_shaft_in_bearings_turns_with_it_unless_others_guide_it(seed, guided):
     """A crank on the end of the shaft; and a nut, which is also on a rod beside it."""

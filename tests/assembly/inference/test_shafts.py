@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from jaxkin.geometry.part import moved
-from reference.round_parts import anywhere, assembly, block, moving, owners, part, pin, ring
+from reference.round_parts import SEEDS, anywhere, assembly, block, moving, owners, part, pin, ring
 
 BASE = block((-60, -60, -100), (60, -50, 100))
 """A side of a base, which touches nothing else."""
@@ -138,7 +138,7 @@ def test_what_is_between_two_bearings_stops_a_slide_whatever_its_faces(seed, gap
     assert [joint.kind for joint in moving(mechanism)] == [kind]
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("coupled", [True, False])
 def test_a_rod_on_the_floor_of_its_hole_is_the_shaft_of_a_motor_where_it_has_a_hub(seed, coupled):
     """Without one it is a post; with a hub that touches the shaft beyond its end it is what drives that shaft."""

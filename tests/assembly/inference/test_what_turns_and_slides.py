@@ -9,7 +9,7 @@ import pytest
 from jaxkin.geometry.part import moved
 from jaxkin.geometry.surfaces import Cone, Plane
 from jaxkin.joints.evidence import EvidenceKind
-from reference.round_parts import SECTIONS, TO_X, anywhere, assembly, block, moving, owners, part, pin, ring
+from reference.round_parts import SECTIONS, SEEDS, TO_X, anywhere, assembly, block, moving, owners, part, pin, ring
 
 PIVOT = pin(4.0, 0, 60, (60.0, 60.0))
 LEVER = part("lever", ring(4.1, 9.0, 5, 15, (60.0, 60.0)), block((68, 57, 5), (100, 63, 15)))
@@ -35,7 +35,7 @@ def raceway(first, last, low, high, side):
     return [(Cone(apex, np.array([0.0, 0.0, 1.0]), half_angle, side), triangles if side > 0 else triangles[:, ::-1])]
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 def test_a_tapered_roller_bearing_is_one_hinge(seed):
     """Its raceways are cones: neither ring has a cylinder there."""
     outer = part("outer", ring(12.0, 16.0, -5, 5)[:2], ring(12.0, 16.0, -5, 5)[3:], raceway(12.0, 13.5, -5, 5, -1))
@@ -48,7 +48,7 @@ def test_a_tapered_roller_bearing_is_one_hinge(seed):
     assert body["outer"] == body["base"] and body["inner"] == body["shaft"] == body["roller 3"]
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 def test_rings_with_screw_holes_are_those_of_a_bearing_with_its_rollers(seed):
     """As crossed roller bearings have them."""
     spots = [13.0 * np.array([np.cos(angle), np.sin(angle)]) for angle in np.arange(4) * np.pi / 2]
@@ -62,7 +62,7 @@ def test_rings_with_screw_holes_are_those_of_a_bearing_with_its_rollers(seed):
     assert body["outer"] == body["base"] != body["inner"] == body["shaft"]
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("flange", "turns"), [(True, True), (False, False)])
 def test_a_pin_amid_screw_holes_with_a_hub_clamped_on_it_is_the_shaft_of_a_motor(seed, flange, turns):
     """Without the holes it is a stud, which stands in the material as it is drawn."""
@@ -82,7 +82,7 @@ def test_a_pin_amid_screw_holes_with_a_hub_clamped_on_it_is_the_shaft_of_a_motor
     assert sum(joint.kind == "revolute" for joint in moving(mechanism)) == turns
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("end", "kept"), [(11.1, True), (16.0, False)])
 def test_a_ring_that_springs_into_a_groove_goes_with_the_shaft(seed, end, kept):
     """In a groove that is five times as wide as the ring it is something else."""
@@ -95,7 +95,7 @@ def test_a_ring_that_springs_into_a_groove_goes_with_the_shaft(seed, end, kept):
     assert body["shaft"] != body["base"]
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("gap", "slides"), [(0.05, True), (6.0, False)])
 def test_a_ram_that_lies_between_walls_slides_behind_its_cover(seed, gap, slides):
     """It only touches the back of its guide. Without walls near to it, it just lies there."""
@@ -123,7 +123,7 @@ def prism(corners, low, high):
     return faces
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("reach", "slides"), [(10.2, True), (40.0, False)])
 def test_a_carriage_on_an_undercut_rail_slides(seed, reach, slides):
     """With its jaws far from the slanting faces it is not kept on the rail."""

@@ -12,7 +12,7 @@ import trimesh
 from jaxkin.geometry.part import moved
 from jaxkin.geometry.surfaces import Sphere
 from jaxkin.joints.evidence import EvidenceKind
-from reference.round_parts import anywhere, assembly, block, moving, owners, part, pin, ring
+from reference.round_parts import SEEDS, anywhere, assembly, block, moving, owners, part, pin, ring
 
 
 def of(drawn, seed, fixed="base"):
@@ -31,7 +31,7 @@ def wheel(name, at, low, *, radius=12.0, outside=8.0):
     ]
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("gap", "clamped"), [(0.0, True), (0.4, False)])
 def test_what_lies_on_the_inner_ring_of_a_bearing_is_clamped_to_it(seed, gap, clamped):
     """The bolt is loose in the base; a washer that lies on both holds the ring there, one that is away from it not."""
@@ -44,14 +44,14 @@ def test_what_lies_on_the_inner_ring_of_a_bearing_is_clamped_to_it(seed, gap, cl
     assert body["wheel hub"] == body["wheel outer"] != body["wheel bolt"]
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 def test_what_lies_on_both_rings_of_a_bearing_is_clamped_to_neither(seed):
     base = part("base", ring(2.6, 30.0, -6, 1))  # it reaches both rings, and the hub
     _, mechanism = of(assembly(base, *wheel("wheel", (0.0, 0.0), 1.0)), seed)
     assert not any("clamped to the ring" in note for note in mechanism.notes)
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 def test_a_shaft_off_the_axis_of_its_bearings_turns_about_its_own(seed):
     """Both rings are 0.35 to one side of a shaft that is 0.1 thinner; what is on the shaft agrees with the shaft."""
     at = (0.35, 0.0)
@@ -73,7 +73,7 @@ def test_a_shaft_off_the_axis_of_its_bearings_turns_about_its_own(seed):
     assert np.linalg.norm(away - (away @ cylinder.axis) * cylinder.axis) < 1e-9 * cylinder.radius
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("count", "held"), [(2, True), (1, False)])
 def test_two_spacers_without_their_screws_hold_two_plates_together(seed, count, held):
     """The holes of the upper plate are tapped, and narrower than those of the spacers."""
@@ -127,7 +127,8 @@ def sphere(radius, side, low, high):
     return [(Sphere(np.zeros(3), radius, side), kept if side > 0 else kept[:, ::-1])]
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.long
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(
     ("ball", "low", "joined"), [(7.8, -0.9, True), (8.1, -0.9, True), (6.5, -0.9, False), (7.8, 0.7, False)]
 )
@@ -144,7 +145,7 @@ def test_a_ball_turns_in_its_socket_with_clearance_or_interference(seed, ball, l
         assert sizes["clearance"] == pytest.approx(sizes["radius"] * (8.0 - ball) / 8.0, rel=1e-6)
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("reach", "kind"), [(25.0, "prismatic"), (3.0, "revolute")])
 def test_a_knob_at_the_end_of_its_slot_is_no_hinge_where_walls_keep_it_from_turning(seed, reach, kind):
     """The slide is between the walls of its channel over its whole length, or only beside the knob."""
@@ -193,7 +194,7 @@ def test_proposals_lead_with_the_slide_and_tell_what_only_turns_wheels():
     assert "5 freedoms in 6 bodies, 4 of which only turn wheels or rollers" in str(best)
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("nut", "clamped"), [(True, True), (False, False)])
 def test_a_screw_with_its_nut_clamps_what_its_head_lies_on_where_a_bush_on_it_turns(seed, nut, clamped):
     """The eccentric has a hole of its own in the base, beside the screw; the roller turns with its two bushes."""
@@ -209,7 +210,7 @@ def test_a_screw_with_its_nut_clamps_what_its_head_lies_on_where_a_bush_on_it_tu
     assert told == clamped and (body["screw"] == body["base"]) >= clamped
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("end", "set_in"), [(6.0, True), (30.0, False)])
 def test_a_rod_that_ends_in_a_wide_hole_is_set_in_and_one_that_goes_through_slides(seed, end, set_in):
     base = part("base", ring(6.0, 20.0, 0, 14), block((19, -5, 0), (60, 5, 14)))
@@ -220,7 +221,7 @@ def test_a_rod_that_ends_in_a_wide_hole_is_set_in_and_one_that_goes_through_slid
     assert (body["rod"] == body["base"]) == set_in
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", SEEDS)
 def test_bearing_blocks_that_only_lie_on_their_base_stay_there(seed):
     """No screw is drawn, and the shaft turns all the same."""
     base = block((-60, -60, -10), (160, 160, 0))

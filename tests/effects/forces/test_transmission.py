@@ -65,6 +65,7 @@ def test_the_angle_where_the_output_rests():
     np.testing.assert_allclose(found.angle, min(angle, np.pi - angle), rtol=1e-7)
 
 
+@pytest.mark.long
 def test_a_right_angle_has_all_its_digits_and_finite_derivatives():
     """Coupler and rocker of (1, 3), (4, 3), (4, 0) are at right angles; beside that pose cos(angle) follows from the
     law of cosines."""
