@@ -213,10 +213,12 @@ def _unlocked(
 
 
 def _drives_another(mechanism: Mechanism, spinning: Collection[str]) -> bool:
-    """Tell whether a joint can be driven that is none of the parts which only spun before, such as a disc on its screw:
-    what it loses with its hinge is no motion of the machine."""
+    """Tell whether a joint can be driven between bodies none of which only spun before, as a disc on its screw did:
+    what such a body gains without its hinge is no motion of the machine."""
+    owner = body_of_parts(mechanism.bodies)
+    spun = {owner[part] for part in spinning}
     driven = {name.rpartition(".")[0] for name in mechanism.mobility().drivable}
-    return any(each.name in driven and not {*spinning} & {*each.parts} for each in mechanism.all_joints)
+    return any(each.name in driven and not spun & {owner[part] for part in each.parts} for each in mechanism.all_joints)
 
 
 def _frees_fasteners_only(mechanism: Mechanism, dropped: Inference) -> bool:
