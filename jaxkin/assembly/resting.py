@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Sequence
 from typing import TYPE_CHECKING
 
 from jaxkin.assembly.inference.inference import Inference
-from jaxkin.assembly.inference.walls import is_in_slot
+from jaxkin.assembly.inference.walls import slot_normals
 from jaxkin.assembly.seats import locks_slide
 from jaxkin.contacts.contact import Contact
 from jaxkin.joints.evidence import Evidence, EvidenceKind
@@ -41,7 +41,7 @@ def _slides_in_a_slot(contacts: Sequence[Contact]) -> bool:
     pairs: dict[frozenset[str], list[Contact]] = {}
     for each in contacts:
         pairs.setdefault(frozenset(each.parts), []).append(each)
-    return any(map(is_in_slot, pairs.values()))
+    return any(len(slot_normals(some, part)) for pair, some in pairs.items() for part in pair)
 
 
 def leaves_all_moving(

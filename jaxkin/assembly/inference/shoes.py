@@ -11,7 +11,7 @@ from jaxkin.assembly.inference.floating import wall_across
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.stop_faces import ACROSS, MAX_AXIAL_PLAY, stands_across
-from jaxkin.assembly.inference.walls import Looking, facing, is_in_slot
+from jaxkin.assembly.inference.walls import Looking, facing, slot_normals
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector
 from jaxkin.joints import pairs
@@ -50,16 +50,19 @@ def shoes(known: Known) -> list[Inference]:
 
 def blocks_between_walls(known: Known, fastening: Collection[str]) -> set[str]:
     """Find the parts of the form of a nut that are shoes, too: each is on pins of parts that are no fasteners, and in
-    contact with two walls of a third part that look at each other, as the block of a quick return is in its lever."""
-    pins: dict[str, set[str]] = {}
+    contact with walls of a third part on both sides along the pin, as the block of a quick return is in its lever."""
+    on: dict[str, list[CommonAxis]] = {}
     for pair in known.axes:
-        if not pair.virtual:
-            pins.setdefault(pair.other.part, set()).add(pair.one.part)
+        if not pair.virtual and pair.other.part in fastening:
+            on.setdefault(pair.other.part, []).append(pair)
     result = set()
-    for name in {*fastening} & pins.keys():
-        beside = {part for pair in known.touching if name in pair for part in pair} - {name, *pins[name]}
-        slots = (is_in_slot(known.between[frozenset((name, other))]) for other in beside)
-        if not pins[name] & {*fastening} and any(slots):
+    for name, axes in on.items():
+        pins, axis = {pair.one.part for pair in axes}, axes[0].one.axis
+        if pins & {*fastening}:
+            continue
+        beside = {part for each in known.touching if name in each for part in each} - {name, *pins}
+        walls = (slot_normals(known.between[frozenset((name, other))], name) for other in beside)
+        if any((np.abs(normals @ axis) < ACROSS).any() for normals in walls):
             result.add(name)
     return result
 

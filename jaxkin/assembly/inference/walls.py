@@ -51,14 +51,16 @@ def walls(found: Sequence[Looking]) -> list[tuple[Vector, float, float]]:
     return [(found[i][0], float(plays[i, j]), float(widths[i, j])) for i, j in both.tolist()]
 
 
-def is_in_slot(contacts: Sequence[Contact]) -> bool:
-    """Tell whether one of two parts is between walls of the other, by all contacts of the two: plane faces in contact
-    that look against each other, as on both sides of a block in a slot."""
-    first = contacts[0].parts[0] if contacts else ""
-    flat = [each for each in contacts if each.contact_state.is_flat]
-    own = [each.surfaces[each.parts.index(first)] for each in flat]
-    normals = np.array([surface.normal for surface in own if isinstance(surface, Plane)]).reshape(-1, 3)
-    return bool(_are_opposite(normals, normals).any())
+def slot_normals(contacts: Sequence[Contact], part: str) -> Float[np.ndarray, "walls 3"]:
+    """Find the unit normals of faces of a part that lie on walls of another one on both sides, as those of a block in a
+    slot do, by all contacts of the two parts."""
+    surfaces = [each.surfaces[each.parts.index(part)] for each in contacts if each.contact_state.is_flat]
+    planes = [surface for surface in surfaces if isinstance(surface, Plane)]
+    normals = np.array([plane.normal for plane in planes]).reshape(-1, 3)
+    points = np.array([plane.point for plane in planes]).reshape(-1, 3)
+    heights = normals @ points.T
+    outwards = np.diagonal(heights)[:, None] > heights  # the second face lies behind the first
+    return normals[(_are_opposite(normals, normals) & outwards).any(axis=1)]
 
 
 def turns(ones: Sequence[Part], others: Sequence[Part], point: Vector, axis: Vector) -> float:
