@@ -1,4 +1,5 @@
-"""Names that were not found: the nearest known one, for messages; parts by pattern; and names that are still free."""
+"""Names that were not found: the nearest known one, for messages; parts by pattern; names that are still free; numbers
+with their nouns."""
 
 from __future__ import annotations
 
