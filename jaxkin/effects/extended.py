@@ -159,7 +159,7 @@ class Extended:
             coefficients = [[self.mp.mpf(float(c)) for c in power] for power in spline.table[:, piece]]
             return curve_point(coefficients, behind, self.mp.sqrt)
         (i, s), (j, t) = (self._piece(*each) for each in zip(spline.knots, spline.start, spline.closed, q, strict=True))
-        powers = [[[self.mp.mpf(float(c)) for c in each] for each in power] for power in spline.table[:, :, i, j]]
+        powers = np.array([self.mp.mpf(float(c)) for c in spline.table[:, :, i, j].flat], object).reshape(4, 4, 3)
         height = None if spline.height is None else self.mp.mpf(float(spline.height))
         return patch_point(bicubic(powers, s, t), height, self.mp.sqrt)
 

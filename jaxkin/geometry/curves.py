@@ -212,7 +212,8 @@ def _periodic_slopes(xp: Any, widths: Any, rise: Any) -> Any:
     u = xp.where(first, -corner, xp.where(last, before[-1], 0.0))
     v_last = -behind[0] / corner
     diagonal = diagonal + xp.where(first, corner, xp.where(last, before[-1] * behind[0] / corner, 0.0))
-    solved = _tridiagonal(xp, behind, diagonal, before, xp.concatenate([right, u[:, None]], axis=1))
+    lower, upper = xp.where(first, 0.0, behind), xp.where(last, 0.0, before)
+    solved = _tridiagonal(xp, lower, diagonal, upper, xp.concatenate([right, u[:, None]], axis=1))
     y, z = solved[:, :-1], solved[:, -1:]
     slopes = y - z * (y[:1] + v_last * y[-1:]) / (1.0 + z[0] + v_last * z[-1])
     return xp.concatenate([slopes, slopes[:1]])
@@ -222,24 +223,21 @@ def _open_slopes(xp: Any, widths: Any, rise: Any) -> Any:
     """Compute the derivatives at all knots of an open spline, whose first and last two pieces are one cubic each."""
     a, b = widths[:-1, None], widths[1:, None]
     inner = 3 * (b * rise[:-1] + a * rise[1:])
-
-    def end(width: Any, following: Any, r0: Any, r1: Any) -> tuple[Any, Any]:
-        both = width + following
-        return both, ((width + 2 * both) * following * r0 + width**2 * r1) / both
-
-    both_first, right_first = end(widths[0], widths[1], rise[0], rise[1])
-    both_last, right_last = end(widths[-1], widths[-2], rise[-1], rise[-2])
+    # both ends together: the outer chord, the one beside it, and what they rise
+    outer, beside = (xp.concatenate([widths[k : k + 1], widths[-1 - k :][:1]])[:, None] for k in (0, 1))
+    r_outer, r_beside = (xp.concatenate([rise[k : k + 1], rise[-1 - k :][:1]]) for k in (0, 1))
+    both = outer + beside
+    ends = ((outer + 2 * both) * beside * r_outer + outer**2 * r_beside) / both
+    none = xp.zeros_like(widths[:1])
     diagonal = xp.concatenate([widths[1:2], 2 * (widths[:-1] + widths[1:]), widths[-2:-1]])
-    lower = xp.concatenate([xp.zeros_like(widths[:1]), widths[1:], both_last[None]])
-    upper = xp.concatenate([both_first[None], widths[:-1], xp.zeros_like(widths[:1])])
-    right = xp.concatenate([right_first[None], inner, right_last[None]])
+    lower = xp.concatenate([none, widths[1:], both[1]])
+    upper = xp.concatenate([both[0], widths[:-1], none])
+    right = xp.concatenate([ends[:1], inner, ends[1:]])
     return _tridiagonal(xp, lower, diagonal, upper, right)
 
 
 def _tridiagonal(xp: Any, lower: Any, diagonal: Any, upper: Any, right: Any) -> Any:
-    """Solve tridiagonal equations; the first entry of `lower` and the last one of `upper` are not used."""
-    first, last = (xp.arange(len(diagonal)) == number for number in (0, len(diagonal) - 1))
-    lower, upper = xp.where(first, 0.0, lower), xp.where(last, 0.0, upper)
+    """Solve tridiagonal equations; the first entry of `lower` and the last one of `upper` must be zero."""
     if xp is jnp:
         return linalg.tridiagonal_solve(lower, diagonal, upper, right)
     from scipy.linalg import solve_banded  # half of the time of importing jaxkin

@@ -52,16 +52,14 @@ class Patch:
             widths = xp.mean(xp.sqrt(xp.sum(xp.diff(local, axis=axis) ** 2, axis=2)), axis=1 - axis)
             knots.append(xp.concatenate([xp.zeros_like(widths[:1]), xp.cumsum(widths)]))
         (knots_u, knots_v), (closed_u, closed_v) = knots, self.closed
-        across = xp.swapaxes(local, 0, 1)
-        by_v = xp.swapaxes(_slopes(xp, knots_v, across, closed_v), 0, 1)
-        by_u, by_both = (_slopes(xp, knots_u, values, closed_u) for values in (local, by_v))
-        powers = []
-        for values, slopes in zip(_cubics(xp, knots_u, local, by_u), _cubics(xp, knots_u, by_v, by_both), strict=True):
-            along_v = _cubics(xp, knots_v, *(xp.swapaxes(each, 0, 1) for each in (values, slopes)))
-            powers.append(xp.stack([xp.swapaxes(each, 0, 1) for each in along_v]))
+        by_v = xp.swapaxes(_slopes(xp, knots_v, xp.swapaxes(local, 0, 1), closed_v), 0, 1)
+        along_u = xp.stack([local, by_v], axis=1)
+        powers_u = xp.stack(_cubics(xp, knots_u, along_u, _slopes(xp, knots_u, along_u, closed_u)))
+        values, slopes = (xp.moveaxis(powers_u[:, :, k], 2, 0) for k in (0, 1))
+        powers = xp.transpose(xp.stack(_cubics(xp, knots_v, values, slopes)), (2, 0, 3, 1, 4))
         start = [length_at(xp, *each) for each in zip(xp.asarray(self.start, float), knots, self.closed, strict=True)]
         height = None if self.height is None else xp.asarray(self.height, float)
-        return BicubicSpline(knots_u, knots_v, xp.stack(powers), xp.stack(start), height, self.closed)
+        return BicubicSpline(knots_u, knots_v, powers, xp.stack(start), height, self.closed)
 
     def counted_from(self, u: float, v: float) -> Patch:
         """Return the same patch for the frame that stands at the coordinates `u` and `v` of this one: host numbers."""
@@ -101,11 +99,11 @@ class PatchPoint(NamedTuple):
     y: Any
     z: Any
     dx: Any
-    """PatchDerivatives of x, y, z with respect to u."""
+    """Derivatives of x, y, z with respect to u."""
     dy: Any
     dz: Any
     dx_v: Any
-    """PatchDerivatives of x, y, z with respect to v."""
+    """Derivatives of x, y, z with respect to v."""
     dy_v: Any
     dz_v: Any
 
@@ -183,20 +181,20 @@ FollowedPoint = CurvePoint | PatchPoint
 
 
 def bicubic(coefficients: Any, s: Any, t: Any) -> PatchDerivatives:
-    """Evaluate bicubics, `coefficients[power of s][power of t][axis]`, and their derivatives, in any arithmetic."""
-    found = []
-    for axis in range(3):
-        rows = [_cubic([coefficients[i][j][axis] for j in range(4)], t) for i in range(4)]
-        value, slope, bend = ([row[order] for row in rows] for order in range(3))
-        (f, f_s, f_ss), (f_t, f_st, _) = _cubic(value, s), _cubic(slope, s)
-        found.append((f, f_s, f_t, f_ss, f_st, _cubic(bend, s)[0]))
-    return PatchDerivatives(*zip(*found, strict=True))
+    """Evaluate bicubics, `coefficients[power of s, power of t, axis]`, and their derivatives, in any arithmetic.
+
+    All three components are computed together: `coefficients` is an array, of objects for numbers of other libraries.
+    """
+    value, slope, bend = _cubic([coefficients[:, power] for power in range(4)], t)
+    (f, f_s, f_ss), (f_t, f_st, _), (f_tt, _, _) = (_cubic(each, s) for each in (value, slope, bend))
+    return PatchDerivatives(f, f_s, f_t, f_ss, f_st, f_tt)
 
 
 def patch_point(at: PatchDerivatives, height: Any, sqrt: Any) -> PatchPoint:
     """Compute where what follows is, a height h along the unit normal n: p + h n, and its derivatives p_u + h n_u."""
     if height is None:
         return PatchPoint(*at.point, *at.u, *at.v)
+    at = PatchDerivatives(*map(tuple, at))
     across = cross(at.u, at.v)
     length = sqrt(dot(across, across))
     normal = tuple(each / length for each in across)
@@ -238,7 +236,7 @@ def _slopes(xp: Any, knots: Any, values: Any, closed: bool) -> Any:
 
 def _cubics(xp: Any, knots: Any, values: Any, slopes: Any) -> list[Any]:
     """Compute the coefficients of the pieces along the first axis, from values and derivatives at the knots."""
-    width = (knots[1:] - knots[:-1])[:, None, None]
+    width = (knots[1:] - knots[:-1]).reshape(-1, *(1,) * (values.ndim - 1))
     begin, end = slopes[:-1], slopes[1:]
     rise = (values[1:] - values[:-1]) / width
     return [values[:-1], begin, (3 * rise - 2 * begin - end) / width, (begin + end - 2 * rise) / width**2]

@@ -25,7 +25,7 @@ from jax import lax
 from jaxtyping import Array, Float
 
 from jaxkin.geometry.trig import cos_sin
-from jaxkin.solve.closure.along_curves import along_curves
+from jaxkin.solve.closure.along_curves import along_curves, law_numbers
 from jaxkin.solve.closure.rod_spin import lengths, turn_between, vee
 from jaxkin.solve.closure.spatial_geometry import Spatial
 from jaxkin.solve.system.chain_tables import ChainTables, chain_tables, distinct_tables
@@ -170,13 +170,18 @@ def _travel(
     # once a coordinate, and not for each chain that it is in
     turning, place = np.unique(np.where(table.turn > 0, table.column, system.columns), return_inverse=True)
     place = place.reshape(table.turn.shape)
-    x = jnp.concatenate([state.x, jnp.zeros((1, poses), dtype)])
-    travel = jnp.asarray(advance * sign) * x[table.column]
-    cos, sin = cos_sin(x[turning])
-    cos, sin = cos[place], sign * sin[place]
+    cos, sin = cos_sin(jnp.concatenate([state.x, jnp.zeros((1, poses), dtype)])[turning])
+    moving, lengths = table.column, [state.x, jnp.zeros((1, poses), dtype)]
     rates: Array | None = None
     if geometry.curves:
-        cos, sin, travel, rates = along_curves(system, geometry.curves, state, (cos, sin, travel))
+        number, laws = law_numbers(system).of_steps, along_curves(system, geometry.curves, state)
+        moving = np.where(number < 0, moving, system.columns + 1 + number)
+        place = np.where(number < 0, place, len(turning) + number)
+        lengths.append(laws.length)
+        cos, sin = jnp.concatenate([cos, laws.cos]), jnp.concatenate([sin, laws.sin])
+        rates = jnp.concatenate([jnp.ones((1, poses), dtype), laws.rate])[number + 1]
+    travel = jnp.asarray(advance * sign) * jnp.concatenate(lengths)[moving]
+    cos, sin = cos[place], sign * sin[place]
     balls = _ball_turns(state, table) if system.turned_balls else None
 
     def step(carry: tuple[Rotation, Vector], given):
@@ -246,10 +251,11 @@ def _ball_turns(state: State, table: ChainTables) -> Float[Array, "steps 3 3 dis
 
 def _compose(rotation: Rotation, translation: Vector, pose: Float[Array, "chains 4 4"]) -> tuple[Rotation, Vector]:
     """Compose rotation and translation with a constant pose that follows, chain by chain."""
-    columns = [sum(rotation[j] * pose[:, j, c, None] for j in range(3)) for c in range(4)]
-    return jnp.stack(columns[:3]), translation + columns[3]
+    entries = jnp.moveaxis(pose[:, :3], 0, 2)[:, :, None, :, None]  # [row, column, 1, chain, 1]
+    columns = sum(rotation[j] * entries[j] for j in range(3))
+    return columns[:3], translation + columns[3]
 
 
 def _product(a: Rotation, b: Rotation) -> Rotation:
     """Multiply rotation matrices [column, row]."""
-    return jnp.stack([sum(a[j] * b[c][j] for j in range(3)) for c in range(3)])
+    return sum(a[j] * b[:, j, None] for j in range(3))
