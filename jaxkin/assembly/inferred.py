@@ -74,17 +74,18 @@ def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said, tubes
             for some in (used, contacts)
         )
 
+    fasteners: set[str] = set()
+
     def made(seats: Sequence[Inference], apart: Sequence[Pair] = ()) -> tuple[Mechanism, list[Inference], int]:
         """Make the mechanism with its inferences, with the pairs of parts in `apart` never one body; and count what is
-        of use before slides are stopped."""
+        of use before slides are stopped. Keeps what was taken for fasteners in `fasteners`."""
         rigid = [*said.rigid, *(each.parts for each in seats)]
         loose = {each.part for each in tubes}
-        found, levels = infer(
-            assembly._measured, used, said.fixed, rigid, said.joints, ignored, said.clearance, loose, apart
-        )
-        found = [*seats, *found]
+        implied = infer(assembly._measured, used, said.fixed, rigid, said.joints, ignored, said.clearance, loose, apart)
+        fasteners.update(implied.fasteners)
+        found = [*seats, *implied.found]
         plain = from_words(assembly, contacts, said, found)
-        return *_stopped(assembly, contacts, said, plain, found, levels), _not_idle(plain)
+        return *_stopped(assembly, contacts, said, plain, found, implied.stops), _not_idle(plain)
 
     seats = [each.inference for each in tubes]
     mechanism, found, plainly = made(seats)
@@ -111,7 +112,7 @@ def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said, tubes
     moves = useful_freedoms(mechanism) or _has_free_slide(mechanism)
     told = _counted(mechanism, found)
     if found and not moves:
-        unlocked, dropped = _unlocked(assembly, contacts, said, found, mechanism)
+        unlocked, dropped = _unlocked(assembly, contacts, said, found, mechanism, fasteners)
         told = unlocked or told
         if dropped is not None and dropped.joint is None:
             # what is a body no longer may be a joint: a lever on a pin with play
@@ -184,7 +185,12 @@ def _without(dropped: Inference, mechanism: Mechanism) -> Mechanism:
 
 
 def _unlocked(
-    assembly: Assembly, contacts: Sequence[Contact], said: Said, found: Sequence[Inference], locked: Mechanism
+    assembly: Assembly,
+    contacts: Sequence[Contact],
+    said: Said,
+    found: Sequence[Inference],
+    locked: Mechanism,
+    fasteners: Collection[str],
 ) -> tuple[Mechanism | None, Inference | None]:
     """Find the mechanism without the weakest inference that locks it, and that inference: one with useful freedoms, or
     with any where no part spins; None otherwise.
@@ -202,7 +208,7 @@ def _unlocked(
         if _loose(assembly, contacts, said, fewer):
             continue
         other = _counted(from_words(assembly, contacts, said, fewer), fewer)
-        if fewer and _frees_fasteners_only(other, dropping):
+        if fewer and _frees_fasteners_only(other, dropping, fasteners):
             continue
         other = _without(dropping, other)
         if useful_freedoms(other) and _drives_another(other, spinning):
@@ -221,11 +227,10 @@ def _drives_another(mechanism: Mechanism, spinning: Collection[str]) -> bool:
     return any(each.name in driven and not spun & {owner[part] for part in each.parts} for each in mechanism.all_joints)
 
 
-def _frees_fasteners_only(mechanism: Mechanism, dropped: Inference) -> bool:
-    """Tell whether all else is one body without an inference, but for the fasteners that it holds: those named after
-    their host."""
-    fasteners = {*dropped.parts[1:]}
-    others = [parts for parts in mechanism.bodies.values() if not fasteners.issuperset(parts)]
+def _frees_fasteners_only(mechanism: Mechanism, dropped: Inference, fasteners: Collection[str]) -> bool:
+    """Tell whether all else is one body without an inference, but for the fasteners among its parts."""
+    freed = {*dropped.parts} & {*fasteners}
+    others = [parts for parts in mechanism.bodies.values() if not freed.issuperset(parts)]
     return dropped.evidence.kind is EvidenceKind.FASTENER and len(others) < 2
 
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from jaxkin.assembly.wheels import wheels_last, wheels_of
 from jaxkin.geometry.part import Part
+from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.mobility.open_loops import opening
 from jaxkin.topology.bodies import body_of_parts
 
@@ -101,6 +102,9 @@ def proposals(
         raise ValueError(f"{assembly.source}: there are no parts, and nothing to fix")
     base = max(solids, key=lambda name: _extent(solids[name]))
     mechanism = assembly.mechanism(fixed=[base])
+    if (tied := _tied(mechanism)) and base not in tied:
+        base = max(tied, key=lambda name: _extent(solids[name]))
+        mechanism = assembly.mechanism(fixed=[base])
     others = [part for part in _likely(mechanism, solids) if part not in mechanism.fixed]
     choices = [[part] for part in others[: TRIED - 1]] + _with_ends(mechanism, solids)
     found = []
@@ -115,6 +119,20 @@ def proposals(
         return bool(each.problem), stills, each.freedoms - len(each.wheels), len(each.fixed), -each.moving
 
     return tuple(sorted(found, key=rank))
+
+
+def _tied(mechanism: Mechanism) -> list[str]:
+    """Name the parts that something ties to others: a cover that is drawn away from all else is only near to them."""
+    ties = [each.parts for some in mechanism.contacts.values() for each in some]
+    ties += [each.parts for each in mechanism.all_joints if not _is_guess(each.evidence)]
+    ties += [each.parts for each in mechanism.bonds if not _is_guess(each.evidence)]
+    tied = {part for parts in ties for part in parts}
+    return [part for part in mechanism.parts if part in tied]
+
+
+def _is_guess(evidence: Evidence | None) -> bool:
+    """Tell whether parts are tied only since they are near to each other, or left at rest."""
+    return evidence is not None and evidence.kind is EvidenceKind.NEAREST
 
 
 def _with_ends(mechanism: Mechanism, solids: Mapping[str, Part]) -> list[list[str]]:

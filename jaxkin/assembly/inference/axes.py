@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -37,7 +38,11 @@ MAX_AXIAL_GAP = 4.0
 MAX_FAR = 20.0
 """The same of parts that nothing else ties: plates on spacers that are not drawn."""
 MAX_LOOSE = 0.5
-"""Radial clearance over the radius of the hole of parts that nothing else ties: bushes that are not drawn."""
+"""Radial clearance over the radius of the hole of parts that nothing else ties: bushes that are not drawn. Radii of an
+eye and its fork differ by so much where pin and bush are not drawn, and those of bores beside each other of parts that
+nothing else ties."""
+MAX_BESIDE = 0.5
+"""Gap between two such bores along the axis, over the radius of the larger one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +80,8 @@ class CommonAxis:
     @property
     def tapped(self) -> bool:
         """Whether there is no pin, and the two bores are not equal: those of a screw that is not drawn."""
-        return self.virtual and abs(self.clearance) > EQUAL_BORES * max(self.one.radius, self.other.radius)
+        unequal = abs(self.clearance) > EQUAL_BORES * max(self.one.radius, self.other.radius)
+        return self.virtual and unequal and not is_eye_in_fork(self)
 
     @property
     def parts(self) -> tuple[str, str]:
@@ -108,7 +114,9 @@ def far_axes(bores: Sequence[Bore], near: Sequence[CommonAxis]) -> list[CommonAx
         if (id(pair.one), id(pair.other)) in known or pair.offset > MAX_OFFSET * radius:
             continue
         if pair.virtual:
-            far = abs(pair.clearance) <= EQUAL_BORES * radius and -engaged(pair) <= MAX_FAR * radius
+            unequal, gap = abs(pair.clearance), -engaged(pair)
+            far = unequal <= EQUAL_BORES * radius and gap <= MAX_FAR * radius
+            far |= unequal <= MAX_LOOSE * radius and gap <= MAX_BESIDE * radius
         else:
             far = pair.other.hole and 0 <= pair.clearance <= MAX_LOOSE * radius and engaged(pair) > MIN_ENGAGED * radius
         if far:
@@ -147,9 +155,24 @@ def _fits(pair: CommonAxis, clearance: float | None) -> bool:
 def _equal(pair: CommonAxis) -> bool:
     """Tell whether two bores without a pin belong to one axis: equal ones, or those of a screw that is not drawn."""
     radius = max(pair.one.radius, pair.other.radius)
-    if pair.offset > MAX_OFFSET * radius or abs(pair.clearance) > MAX_TAPPED * radius:
+    most = MAX_LOOSE if is_eye_in_fork(pair) else MAX_TAPPED
+    if pair.offset > MAX_OFFSET * radius or abs(pair.clearance) > most * radius:
         return False
     return -engaged(pair) <= (MIN_ENGAGED if pair.tapped else MAX_AXIAL_GAP) * radius
+
+
+def is_eye_in_fork(pair: CommonAxis) -> bool:
+    """Tell whether all of one bore is between two neighbouring spans of the other, with a gap of at most `MAX_BESIDE`
+    on both sides, as an eye is between the lugs of a fork: a pin goes through, perhaps in a bush."""
+    along = pair.one.axis
+    slack, least = MAX_BESIDE * max(pair.one.radius, pair.other.radius), MIN_ENGAGED * pair.other.radius
+    for fork, eye in ((pair.one, pair.other), (pair.other, pair.one)):
+        spans = eye.spans_along(along)
+        low, high = min(first for first, _ in spans), max(last for _, last in spans)
+        for (_, below), (above, _) in pairwise(sorted(fork.spans_along(along))):
+            if -least <= low - below <= slack and -least <= above - high <= slack:
+                return True
+    return False
 
 
 def apart(one: Bore, other: Bore) -> tuple[float, float]:
@@ -173,13 +196,16 @@ def _sleeved(pair: CommonAxis, pins: Sequence[CommonAxis]) -> bool:
     """Tell whether a third part is between: a thicker pin that fills the hole, or a tighter hole that holds the pin.
 
     A pin that is thicker than the hole is not in it where another hole holds it without interference, or another pin
-    is in the hole without one.
+    is in the hole without one, in the midst of the thicker one: that is a ring around it, such as a shim.
     """
     apart = MIN_ENGAGED * pair.other.radius
     for each in pins:
         thicker = each.other is pair.other and each.one.radius > _OTHER_RADIUS * pair.one.radius
         thicker = thicker and (pair.tight or not each.tight)
         if thicker and each.one.part != pair.one.part and shared_length(pair.one, each.one) > apart:
+            return True
+        filled = pair.tight and each.other is pair.other and not each.tight and each.one.part != pair.one.part
+        if filled and shared_length(pair.one, each.one) > 0.0:
             return True
         tighter = each.one is pair.one and _OTHER_RADIUS * each.other.radius < pair.other.radius
         fits = each.one is pair.one and pair.tight and not each.tight

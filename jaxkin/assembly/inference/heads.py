@@ -25,6 +25,14 @@ def is_head_on_tube(known: Known, contact: Contact) -> bool:
     return any(stands_across(surface, pair.one.axis) for surface in contact.surfaces for pair in pairs)
 
 
+def is_beside_its_hole(known: Known, contact: Contact) -> bool:
+    """Tell whether a contact is that of a pin with a wall of the part in whose hole the pin is, as where it stands out
+    of the floor of a slot that is as wide: the wall goes on where the hole ends, and the pin rolls on nothing."""
+    pairs = [pair for pair in known.axes if {*pair.parts} == {*contact.parts} and not pair.virtual]
+    faces = dict(zip(contact.parts, contact.faces, strict=True))
+    return any(faces[pair.one.part] in pair.one.faces for pair in pairs)
+
+
 def is_countersunk(known: Known, contact: Contact) -> bool:
     """Tell whether a contact is that of the conical head of a pin with the countersink of the hole that the pin is in:
     about the axis of the pin, and wider than it, other than the point of a needle in its seat."""

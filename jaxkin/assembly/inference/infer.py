@@ -21,7 +21,7 @@ from jaxkin.assembly.inference.fasteners import fasteners, stacks
 from jaxkin.assembly.inference.feathers import feathers
 from jaxkin.assembly.inference.fittings import screwed_fittings
 from jaxkin.assembly.inference.floating import floating
-from jaxkin.assembly.inference.heads import is_countersunk, is_head_on_tube
+from jaxkin.assembly.inference.heads import is_beside_its_hole, is_countersunk, is_head_on_tube
 from jaxkin.assembly.inference.held import (
     attached_fasteners,
     bolted_bodies,
@@ -77,6 +77,9 @@ class Inferred(NamedTuple):
     stops: list[list[Inference]]
     """Lists of joints without a slide, from the surest to the least sure. Each joint may replace a sliding one; the
     caller takes it where that slide moves nothing else."""
+    fasteners: frozenset[str]
+    """The parts that were taken for fasteners by their form, and that neither slide, turn nor roll on what they are
+    in."""
 
 
 def infer(
@@ -132,6 +135,7 @@ def infer(
     body = known.body
     others = [each for each in contacts if not (each.contact_state.is_flat or each.contact_state.is_pin)]
     others = [each for each in others if not (is_head_on_tube(known, each) or is_countersunk(known, each))]
+    others = [each for each in others if not is_beside_its_hole(known, each)]
     separate = [each.parts for each in others if len({body[part] for part in each.parts}) > 1]
     fastening -= {*fixed, *(part for parts in separate for part in parts)}
 
@@ -191,4 +195,5 @@ def infer(
     replacing = [
         each for each in joined if each.replaces_slide and len({body[part] for part in each.inference.parts}) > 1
     ]
-    return Inferred(known.found, [[each.inference for each in replacing if each.stop is level] for level in Stop])
+    stops = [[each.inference for each in replacing if each.stop is level] for level in Stop]
+    return Inferred(known.found, stops, frozenset(fastening))

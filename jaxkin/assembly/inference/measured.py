@@ -90,11 +90,12 @@ class Measured:
             self._slanted[key] = slanted_stops(part, axis)
         return self._slanted[key]
 
-    def depth_inside(self, part: Part, other: Part) -> float:
-        """Measure the length of the pins of a part that lies in the material of another one."""
-        key = part.name, other.name
+    def depth_inside(self, part: Part, other: Part, widest: float = np.inf) -> float:
+        """Measure the length of the pins of a part, of radii up to `widest`, that lies in the material of another
+        one."""
+        key = part.name, other.name, widest
         if key not in self._inside:
-            pins = [bore for bore in self.bores[part.name] if not bore.hole]
+            pins = [bore for bore in self.bores[part.name] if not bore.hole and bore.radius <= widest]
             self._inside[key] = float(sum(depth_inside(pin, other) for pin in pins))
         return self._inside[key]
 

@@ -37,9 +37,10 @@ def clamped_by_one_screw(known: Known, every: Sequence[Stack]) -> list[Inference
     """Join two parts that one screw holds to each other.
 
     The head, or a washer, lies on the one, through which the screw goes with the clearance of a screw and not of a
-    hinge. The other one, on which that lies flat, has the hole that the screw is tight in, or lies on the nut, with a
-    hole as wide. Where the screw is in a hole drilled for its thread, a second pin beside it serves as well as the flat
-    faces, as that of an adjusting screw: the part cannot turn, and the head keeps it from sliding off.
+    hinge. The other one, on which that lies flat, or on what is one body with it, has the hole that the screw is tight
+    in, or lies on the nut, with a hole as wide. Where the screw is in a hole drilled for its thread, a second pin
+    beside it serves as well as the flat faces, as that of an adjusting screw: the part cannot turn, and the head keeps
+    it from sliding off.
     A bar with such screws into several bodies is a link, which turns on them; so are levers, and leaves on two screws.
     A pin with a flag under a screw, itself in a hole of what the screw is tight in, turns on neither.
     Where nothing of that is drawn, either may be meant: the text says how to have the hinge.
@@ -111,13 +112,18 @@ def _under_head(known: Known, stack: Stack, body: Mapping[str, str]) -> list[_Cl
     """Find what lies on the head of a screw, and the part that the screw is tight in."""
     holes, result = _holes(known, stack), []
     tight = [pair for pair in _pairs(known, stack) if pair.clearance <= SAME_FIT * pair.other.radius]
-    for inner in (pair for pair in tight if pair.other.part in stack.held):
+    # a shaft has the form of a fastener, too, and a screw in its end clamps what lies on the shaft, or on its hub
+    shafts = {part for part in stack.fasteners if not all(bore.hole for bore in known.bores[part])}
+    for inner in (pair for pair in tight if pair.other.part in {*stack.held, *shafts}):
         screw, host = inner.parts
         for part, pair in holes.items():
             apart = body[part] != body[host] and pair.one.part == screw
             if apart and known.touches_across(part, stack.axis.axis, *stack.fasteners):
                 flag = _is_flag(known, part, host, inner)
-                flat = _is_wide(pair) and known.touches_only_across(part, host, inner.one.axis, pins=not flag)
+                around = [host, *(name for name in known.names if name != host and body[name] == body[host])]
+                flat = _is_wide(pair) and any(
+                    known.touches_only_across(part, each, inner.one.axis, pins=not flag) for each in around
+                )
                 if flat or _beside(known, part, host, inner, body):
                     why = f"{screw!r} is tight in {host!r}, and its head lies on {part!r}, through which it goes"
                     result.append(_Clamped(part, host, pair, inner, () if flag else (part,), why))

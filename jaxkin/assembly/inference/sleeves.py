@@ -87,7 +87,7 @@ def seated_sleeves(known: Known, found: list[Sleeve]) -> list[Inference]:
     """
     result = []
     for each in found:
-        if each.part in known.fixed or _is_flange(known, each):
+        if _is_flange(known, each):
             continue
         seat, why = each.housing, "set into the hole of"
         if each.pin is not None:

@@ -10,19 +10,24 @@ from jaxkin.assembly.inference.embedded import MIN_DEPTH
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sleeves import SAME_FIT, is_round_about
-from jaxkin.assembly.inference.stop_faces import stands_across
+from jaxkin.assembly.inference.stop_faces import WIDER, stands_across
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 
 def embedded_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
-    """Find pins that stand in the material of parts that have no hole for them."""
+    """Find pins that stand in the material of parts that have no hole for them.
+
+    A screw that is in the hole of its thread is held there: what its head is drawn into is a clash, and holds nothing.
+    """
     related = known.touching | {frozenset(pair.parts) for pair in known.axes}
+    screwed = {pair.one.part: WIDER * pair.one.radius for pair in known.axes if pair.threaded}
     result = []
     for part in (known.solids[name] for name in known.names if name in fastening):
         thinnest = min((bore.radius for bore in known.bores[part.name] if not bore.hole), default=np.inf)
         near = [each for each in known.measured.beside(part) if frozenset((each.name, part.name)) not in related]
-        found = [(known.measured.depth_inside(part, each), each.name) for each in near]
+        widest = screwed.get(part.name, np.inf)
+        found = [(known.measured.depth_inside(part, each, widest), each.name) for each in near]
         found = [(depth, name) for depth, name in found if depth >= MIN_DEPTH * thinnest]
         for depth, host in sorted(found, reverse=True)[:1]:
             text = f"{part.name!r} stands in the material of {host!r}, {depth:.3g} deep"

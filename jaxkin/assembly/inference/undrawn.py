@@ -37,8 +37,12 @@ def empty_nuts(known: Known) -> list[Inference]:
             on.setdefault(part, []).append(pair)
     body, result = known.body, []
     for name, some in on.items():
-        (hole, *others) = known.bores[name]
-        if others or name in known.fixed or not all(pair.virtual for pair in some) or not _is_hexagonal(known, hole):
+        own = known.bores[name]
+        hole = max(own, key=lambda bore: bore.half)
+        threaded = all(bore.hole and bore.on_axis_of(hole) for bore in own)  # also with the relief of its thread
+        if not threaded or name in known.fixed or not all(pair.virtual for pair in some):
+            continue
+        if not _is_hexagonal(known, hole):
             continue
         tied = {part for pair in known.touching if name in pair for part in pair} - {name}
         nearest = max(some, key=lambda pair: (bool({*pair.parts} & tied), engaged(pair)))
