@@ -43,6 +43,10 @@ def hinge(name="A", one="base", other="arm"):
     return jk.revolute(name, one, other, point=(0.0, 0.0, 0.0), axis=Z)
 
 
+def framed(kind="revolute", places=None):
+    return jk.joint_on_frames("A", "base", "arm", kind=kind, frame1=np.eye(4), frame2=np.eye(4), places=places)
+
+
 def refused(call, given):
     """Call with something wrong: a ValueError of jaxkin's own, of a few lines, and no output of another library."""
     with pytest.raises(ValueError) as error:
@@ -52,6 +56,7 @@ def refused(call, given):
 
 
 DRIVE = {"ground-crank": np.linspace(0.0, 0.4, 5)}
+LENGTH = {("coupler", "crank-coupler", "coupler-rocker"): (1.0, 1e3)}
 OF_MECHANISMS = {
     "equilibrium": (
         (lambda m, x: jk.equilibrium(x, DRIVE), NO_MECHANISM),
@@ -111,6 +116,8 @@ OF_MECHANISMS = {
         (lambda m, x: jk.optimize(len, m, drive=x), (NOTHING, *NO_MAPPING)),
         (lambda m, x: jk.optimize(len, m, drive=DRIVE, extras=x), NO_MAPPING),
         (lambda m, x: jk.optimize(len, m, drive=DRIVE, starts=x), (NOTHING, 0, *NO_COUNT)),
+        (lambda m, x: jk.optimize(len, m, drive=DRIVE, lengths=LENGTH, ties=x), NO_MAPPING),
+        (lambda m, x: jk.optimize(len, m, drive=DRIVE, lengths=LENGTH, constraints=x), (NOTHING, len, *NO_LIST)),
     ),
     "work_precision": (
         (lambda m, x: jk.work_precision(x, DRIVE), NO_MECHANISM),
@@ -123,6 +130,13 @@ OF_MECHANISMS = {
         (lambda m, x: m.plan(x), (NOTHING, *NO_LIST)),
         (lambda m, x: m.close(hold=x), (NOTHING, *NO_LIST)),
         (lambda m, x: m.with_couplings(x), (NOTHING, *NO_LIST)),
+        (lambda m, x: m.at(x), NO_MOTION),
+    ),
+    "files": (
+        (lambda m, x: jk.write_mjcf(x, "arm.xml"), NO_MECHANISM),
+        (lambda m, x: jk.write_urdf(x, "arm.urdf"), NO_MECHANISM),
+        (lambda m, x: jk.write_asmt(x, "arm.asmt"), NO_MECHANISM),
+        (lambda m, x: jk.write_study(x, "arm.toml"), NO_MECHANISM),
     ),
 }
 OF_MOTIONS = {
@@ -161,6 +175,12 @@ OF_MOTIONS = {
         (lambda m, x: jk.coupler_curve(x, "crank", Z), NO_MOTION),
         (lambda m, x: jk.coupler_curve(m, "crank", x), NO_NUMBER),
     ),
+    "poses": (
+        (lambda m, x: m.mechanism.at(m, x), (NOTHING, 5, TEXT, 1.0, OBJECT, True, [1, 2], slice(0, 2))),
+        (lambda m, x: m.poses(x), (NOTHING, *NO_MAPPING)),
+        (lambda m, x: m.poses({"crank": x}), (*NO_NUMBER, NUMBER, [1, 2], 2 * np.eye(4), np.full((4, 4), np.nan))),
+        (lambda m, x: m.save("out", only=x), NO_LIST),
+    ),
 }
 ALONE = {
     "loads": (
@@ -185,6 +205,9 @@ ALONE = {
         (lambda x: hinge("A", x), NO_TEXT),
         (lambda x: jk.revolute("A", "base", "arm", point=x, axis=Z), NO_NUMBER),
         (lambda x: jk.screw("A", "base", "arm", point=Z, axis=Z, pitch=x), (*NO_NUMBER, *NOT_FINITE)),
+        (lambda x: jk.contact_joint("A", "base", "arm", state="b", frames=x), (NOTHING, *NO_LIST)),
+        (lambda x: framed(places=x), NO_MAPPING),
+        (lambda x: framed(kind=x), (*NO_TEXT, TEXT)),
         (lambda x: jk.gear("A", "B", x), (*NO_NUMBER, *NOT_FINITE, 0.0)),
         (lambda x: jk.gear(x, "B", 2.0), NO_TEXT),
         (lambda x: jk.relation({"A": 1.0, "B": 1.0}, offset=x), (*NO_NUMBER, *NOT_FINITE)),

@@ -16,7 +16,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from jaxkin._arguments import check_mechanism, whole_number
+from jaxkin._arguments import check_mechanism, several, whole_number
 from jaxkin.design.augmented_lagrangian import MET, Penalty, Verdict
 from jaxkin.design.constraints import Constraint
 from jaxkin.design.lbfgs import bounded
@@ -104,6 +104,7 @@ def optimize(
     squares = isinstance(solver, LevenbergMarquardt)
     chosen = variables(mechanism, drive, lengths or {}, points or {}, extras or {}, ties or {})
     began = time.perf_counter()
+    constraints = several(constraints, "constraints", "functions", "[jk.design.above(...)]")
     problem = design_problem(loss, squares, mechanism, chosen, constraints, options_with(options))
     first = problem.motion(chosen.start)[:2]
     downhill = (least_squares if squares else bounded)(problem, min(TOGETHER, starts))

@@ -241,7 +241,7 @@ def _tied(mechanism: Mechanism, entries: Sequence[_Entry], ties: Mapping[Any, An
     """
     followers: dict[Any, list[tuple[Any, Callable | None]]] = {}
     known = [entry.key for entry in entries]
-    for key, source in ties.items():
+    for key, source in by_name(ties, "ties", "{('rocker', 'C', 'D'): ('coupler', 'B', 'C')}").items():
         change = None
         if isinstance(source, tuple) and len(source) == 2 and callable(source[1]):
             source, change = source

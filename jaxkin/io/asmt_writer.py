@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from jaxkin._arguments import check_mechanism
 from jaxkin._files import whole
 from jaxkin._names import listed
 from jaxkin.geometry.inertial import Inertial
@@ -82,6 +83,7 @@ def write_asmt(mechanism: Mechanism, path: str | os.PathLike[str], *, masses: Ma
     pose, for couplings that are no gear, rack or screw of two joints on one other part, and for a joint with a
     coordinate that turns or slides twice, as a constant velocity joint; and for `masses` of another mechanism.
     """
+    check_mechanism(mechanism, "written files")
     target = Path(path)
     if target.suffix.lower() != ".asmt":
         raise ValueError(f"an assembly of FreeCAD's solver is an .asmt file, got {str(target)!r}")

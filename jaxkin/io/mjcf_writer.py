@@ -16,6 +16,7 @@ from xml.etree.ElementTree import Element, SubElement
 
 import numpy as np
 
+from jaxkin._arguments import check_mechanism
 from jaxkin._files import whole
 from jaxkin._names import listed
 from jaxkin.geometry.units import METRES
@@ -58,6 +59,7 @@ def write_mjcf(mechanism: Mechanism, path: str | os.PathLike[str], *, masses: Ma
     pose, for a joint along a curve or over a surface, for a coupling that MuJoCo cannot say (a polynomial in several
     coordinates, or of a power above four), and for `masses` of another mechanism.
     """
+    check_mechanism(mechanism, "written files")
     target = Path(path)
     if target.suffix.lower() != ".xml":
         raise ValueError(f"a model of MuJoCo is an .xml file, got {str(target)!r}")

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from jaxkin._arguments import check_mechanism
 from jaxkin._files import whole
 from jaxkin._grouped import grouped, kind_of
 from jaxkin.assembly.inference.inference import INFERRED
@@ -73,6 +74,7 @@ def write_study(
     What each joint is known from stands above it. The file appears whole or not at all. Raises ValueError for traced
     numbers, for a mechanism whose lengths were changed, and where `geometry` is missing.
     """
+    check_mechanism(mechanism, "written studies")
     if mechanism.solids and geometry is None:
         raise ValueError('the mechanism has solids: say where they are from, as in geometry="arm.step"')
     check_writable(mechanism.all_joints, "study")

@@ -19,6 +19,7 @@ from xml.etree.ElementTree import Element, SubElement
 
 import numpy as np
 
+from jaxkin._arguments import check_mechanism
 from jaxkin._files import check_folder, whole
 from jaxkin._names import listed
 from jaxkin.geometry.units import METRES
@@ -62,6 +63,7 @@ def write_urdf(mechanism: Mechanism, path: str | os.PathLike[str], *, masses: Ma
     pose, for a coupling that is not linear in two coordinates, which is all that URDF has, and for `masses` of another
     mechanism.
     """
+    check_mechanism(mechanism, "written files")
     target = Path(path)
     if target.suffix.lower() != ".urdf":
         raise ValueError(f"a robot in URDF is a .urdf file, got {str(target)!r}")

@@ -7,6 +7,7 @@ from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from jaxkin._arguments import several
 from jaxkin._files import whole
 from jaxkin._traced import traced
 from jaxkin.io.gltf import write_animation
@@ -57,7 +58,7 @@ def save(
 
 
 def _choose(only: str | Collection[str] | None, writers: Mapping[str, Writer]) -> list[str]:
-    wanted = set(writers) if only is None else {only} if isinstance(only, str) else set(only)
+    wanted = set(writers) if only is None else {only} if isinstance(only, str) else set(several(only, "only", "files"))
     if unknown := sorted(wanted - set(writers)):
         raise ValueError(f"no file {unknown[0]!r} can be written for a motion; choose from {', '.join(writers)}")
     return [filename for filename in writers if filename in wanted]

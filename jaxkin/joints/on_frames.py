@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from jaxkin._arguments import one_number
+from jaxkin._arguments import by_name, one_number
 from jaxkin._names import nearest
 from jaxkin._traced import traced
 from jaxkin.geometry.movements import MOVEMENTS
@@ -58,10 +58,11 @@ def joint_on_frames(
     ValueError for other kinds, for what is no rigid pose, for axes of a universal joint that are not perpendicular, and
     for the pitch of what is no screw.
     """
-    if kind not in MOVEMENT_OF:
+    places = by_name(places or {}, f"joint {name!r}: places", "{'arm': np.eye(4)}")
+    if not isinstance(kind, str) or kind not in MOVEMENT_OF:
         raise ValueError(f"joint {name!r}: there is no kind {kind!r} of two frames{nearest(str(kind), MOVEMENT_OF)}")
     world = [
-        _rigid(name, f"the place of {part!r}", (places or {}).get(part, np.eye(4))) @ _rigid(name, label, given)
+        _rigid(name, f"the place of {part!r}", places.get(part, np.eye(4))) @ _rigid(name, label, given)
         for part, label, given in ((part1, "frame1", frame1), (part2, "frame2", frame2))
     ]
     turn = _pitch(name, kind, pitch)

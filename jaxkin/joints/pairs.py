@@ -14,7 +14,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from jaxkin._arguments import one_number
+from jaxkin._arguments import one_number, several
 from jaxkin._traced import traced
 from jaxkin.contacts.states import find_state
 from jaxkin.geometry.pose import is_rigid
@@ -251,6 +251,7 @@ def contact_joint(
         movements = find_state(state, region).movements
     except ValueError as error:
         raise ValueError(f"joint {name!r}: {error}") from None
+    frames = several(frames, f"joint {name!r}: frames", "4x4 poses", "[np.eye(4)]")
     if any(np.shape(pose) != (4, 4) for pose in frames):
         shapes = ", ".join(str(np.shape(pose)) for pose in frames)
         raise ValueError(f"joint {name!r}: frames must be a list of 4x4 poses, [frame, ...], got the shapes {shapes}")

@@ -14,10 +14,11 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
-from jaxkin._arguments import numbers
+from jaxkin._arguments import by_name, numbers
 from jaxkin._named import Named
 from jaxkin._names import listed, nearest
 from jaxkin._traced import traced
+from jaxkin.geometry.pose import is_rigid
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.joint_motion import part_transforms, point_path
 from jaxkin.mechanism.joint_limits import Breach, breaches, excesses, first_within, limit_report
@@ -123,14 +124,15 @@ class Motion:
         """Compute the poses of parts in the world, or relative to one of them, from those of the assembled pose.
 
         `places` are the 4x4 poses of parts in the assembled pose, in the world, as files of robots have them; a pose
-        follows as displacement times place. Raises ValueError for unknown parts.
+        follows as displacement times place. Raises ValueError for unknown parts, and for what is no rigid pose.
         """
+        places = by_name(places, "places", "{'arm': np.eye(4)}")
         for part in (*places, *([relative_to] if relative_to is not None else [])):
             if part not in self.transforms:
                 raise ValueError(f"there is no part {part!r}{nearest(part, self.mechanism.parts)}")
         if relative_to is not None and relative_to not in places:
             raise ValueError(f"poses relative to {relative_to!r} need its place, too")
-        found = {part: self.transforms[part] @ jnp.asarray(place, float) for part, place in places.items()}
+        found = {part: self.transforms[part] @ _place(part, place) for part, place in places.items()}
         if relative_to is None:
             return found
         base = jnp.linalg.inv(found[relative_to])
@@ -194,6 +196,15 @@ def as_point(point: Sequence[float | int] | np.ndarray | Array) -> Float[Array, 
         raise ValueError(f"a point must be {expected}, got shape {found.shape}")
     if not traced(found) and not np.isfinite(found).all():
         raise ValueError(f"a point must be {expected}, got {point!r}")
+    return jnp.asarray(found)
+
+
+def _place(part: str, given: Float[Array | np.ndarray, "4 4"]) -> Float[Array, "4 4"]:
+    """Convert the place of a part to an array; ValueError for what is no rigid pose, a traced one is not looked at."""
+    expected = "a rigid 4x4 pose, as of motion.transforms"
+    found = numbers(given, f"the place of {part!r}", expected)
+    if found.shape != (4, 4) or not (traced(found) or is_rigid(np.asarray(found, float))):
+        raise ValueError(f"the place of {part!r} must be {expected}, got {given!r}")
     return jnp.asarray(found)
 
 

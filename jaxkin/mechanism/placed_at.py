@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin._arguments import check_motion
 from jaxkin._traced import traced
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.pose import Pose as Place
@@ -35,13 +36,14 @@ def mechanism_at(mechanism: Mechanism, motion: Motion | Pose, index: int) -> Mec
     `vmap` and `grad`.
     """
     motion = motion.motion if isinstance(motion, Pose) else motion
+    check_motion(motion, "poses to assemble in")
     if traced((mechanism, motion)):
         raise ValueError("at() is for numbers: inside jit, vmap and grad sweep the mechanism instead")
     own = {joint.name: joint.parts for joint in mechanism.all_joints}
     if not own.items() <= {joint.name: joint.parts for joint in motion.mechanism.all_joints}.items():
         raise ValueError("the motion is that of a mechanism with other parts or joints: write motion.mechanism.at(...)")
-    if not -len(motion) <= index < len(motion):
-        raise ValueError(f"the motion has {len(motion)} poses, numbered from 0, got {index}")
+    if isinstance(index, bool) or not isinstance(index, int | np.integer) or not -len(motion) <= index < len(motion):
+        raise ValueError(f"the motion has {len(motion)} poses, numbered from 0, got {index!r}")
     status = Status(int(motion.status[index]))
     if status not in (Status.CLOSED, Status.LIMITED, Status.JUMPED):
         raise ValueError(
