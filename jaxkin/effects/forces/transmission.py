@@ -104,8 +104,13 @@ def transmission(motion: Motion, output: str, *, joint: str | None = None) -> Tr
     others = [each.name for each in mechanism.all_joints if part in each.parts and each.name != own.name]
     if joint is not None and joint not in others:
         raise ValueError(f"the output part {part!r} has no other joint {joint!r}{nearest(joint, others)}")
+    if not others:
+        raise ValueError(
+            f"the output part {part!r} has no joint but {own.name!r}, and so no transmission angle: jk.velocities has "
+            "the ratio of its rates, jk.drive_forces the force that a load on it takes"
+        )
     if joint is None and len(others) != 1:
-        raise ValueError(f"the output part {part!r} is moved through one of {listed(others)}: say joint={others[:1]!r}")
+        raise ValueError(f"the output part {part!r} is moved through one of {listed(others)}: say joint={others[0]!r}")
     through = joint or others[0]
     speeds = velocities(motion, {name: 1.0})
     load = joint_load(full, 1.0)

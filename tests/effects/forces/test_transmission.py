@@ -93,6 +93,22 @@ def test_what_makes_no_sense_is_refused():
         jk.transmission(motion, "D", joint="B")
 
 
+def test_outputs_of_several_joints_and_of_none_but_their_own():
+    """What the message says to write works, and where there is nothing to write it says where the numbers are."""
+    z = (0.0, 0.0, 1.0)
+    joints = [
+        *fourbar().all_joints,
+        jk.prismatic("rack", "ground", "bar", axis=(1.0, 0.0, 0.0)),
+        jk.revolute("arm", "rocker", "arm", point=(9.0, 0.0, 0.0), axis=z),
+    ]
+    tied = [jk.rack("D", "rack", 2.0), jk.gear("D", "arm", 2.0)]
+    motion = jk.Mechanism.build(fixed=["ground"], joints=joints, couplings=tied).sweep({"A": TURN[:3]})
+    with pytest.raises(ValueError, match=r"moved through one of C, arm: say joint='C'"):
+        jk.transmission(motion, "D")
+    with pytest.raises(ValueError, match=r"'bar' has no joint but 'rack', and so no transmission angle"):
+        jk.transmission(motion, "rack")
+
+
 @pytest.mark.long
 def test_a_slider_is_pushed_along_the_rod():
     """The transmission angle of a slider is that of the rod from across the slide; force over torque is 1 / (dx/dt)."""
