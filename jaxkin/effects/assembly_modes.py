@@ -22,6 +22,7 @@ from jaxtyping import Array, Float
 from jaxkin._arguments import by_name, check_mechanism, one_number, text, whole_number
 from jaxkin._names import counted, listed
 from jaxkin._traced import traced
+from jaxkin.effects.coupled_turns import coupled_turns
 from jaxkin.effects.mode_plot import draw_modes
 from jaxkin.effects.mode_search import FoundPoses, PoseFeatures, Starts, find_modes, wrap_angles
 from jaxkin.effects.pose_plot import save_displacements
@@ -151,6 +152,8 @@ class AssemblyModes:
             lines.append(f"  and {len(self) - MAX_ROWS} more: see .motion")
         if not self.complete:
             lines.append(f"  {self._doubt()}")
+            if turns := coupled_turns(self.motion.mechanism.linkage, self.inputs):
+                lines.append(f"  but for full turns of {listed(turns)}, which couplings tie: each is a mode of its own")
         return "\n".join(lines)
 
     def _doubt(self) -> str:
@@ -189,7 +192,9 @@ def assembly_modes(
     Where each group of loops has a formula (see `mechanism.plan`), both of its poses are computed: the modes are
     complete. Elsewhere the loops are closed from `tries` random starts, the same ones for the same `seed`, and the
     result tells how many led to each mode: one that was found once suggests that there are more. Poses that differ by
-    idle freedoms, such as the spin of a rod between two balls, are one mode. Loops that the drive does not move stay.
+    idle freedoms, such as the spin of a rod between two balls, are one mode. Where a coupling ties an angle of a loop
+    to what does not make whole turns with it, such as a rack, each full turn is a mode of its own: there is no end of
+    them, and only some near the assembled pose are found. Loops that the drive does not move stay.
     A mode whose `motion.sigma_min` is zero is singular: it may stand for a continuum of poses.
 
     Raises ValueError for a drive that leaves freedoms (the modes would be infinitely many) or that the loops cannot

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 import jaxkin as jk
+from jaxkin.effects.coupled_turns import coupled_turns
 from reference import parallel, planar, spatial
 from reference.catalogue import hexapod, hexapod_between, stephenson
 from reference.mechanisms import flat, planar_fourbar, rssr_linkage, spherical_linkage
@@ -169,6 +170,40 @@ def test_spherical_and_rssr_linkages_have_two():
     home = spatial.rssr(np.array([0.3])).output
     found = np.array([mode.coordinates["D"][0] for mode in modes])
     same_angles(found, [(spatial.rssr(theta, branch=side).output - home)[0] for side in (1, -1)])
+
+
+def test_full_turns_of_an_angle_that_moves_a_rack():
+    """The rocker closes with every full turn, and its rack is elsewhere each time: what is found is not all."""
+    x, turns = (1.0, 0.0, 0.0), "full turns of D.phi, which couplings tie"
+    rack = jk.prismatic("rack", "ground", "bar", axis=x)
+    wheel = jk.revolute("wheel", "ground", "wheel", point=(9.0, 0.0, 0.0), axis=Z)
+    fourbar = planar_fourbar()
+    for added, tie, drive, told in (
+        (rack, jk.rack("D", "rack", 1.3), "A", True),
+        (wheel, jk.gear("D", "wheel", 0.7), "A", True),
+        (wheel, jk.gear("D", "wheel", 0.7), "wheel", False),
+        (wheel, jk.gear("A", "wheel", 0.7), "A", False),
+    ):
+        tied = jk.Mechanism.build(fixed=["ground"], joints=[*fourbar.all_joints, added], couplings=[tie])
+        assert ("D.phi" in coupled_turns(tied.linkage, [f"{drive}.phi"])) is told
+    tied = jk.Mechanism.build(
+        fixed=["ground"], joints=[*fourbar.all_joints, rack], couplings=[jk.rack("D", "rack", 1.3)]
+    )
+    modes = jk.assembly_modes(tied, {"A": 0.0}, tries=8)
+    assert not modes.complete and turns in str(modes)
+
+
+@pytest.mark.parametrize(("ratio", "told"), [(1.0, ()), (-2.0, ()), (0.5, ()), (-1.5, ("A.phi", "E.phi"))])
+def test_wheels_whose_full_turns_are_none(ratio, told):
+    """Two cranks of a five-bar: with a whole ratio a turn of one is whole turns of both, and the pose the same."""
+    points = [(0.0, 0.0), (-0.5, 1.5), (1.5, 2.0), (4.2, 1.5), (4.0, 0.0)]
+    parts = ["ground", "left arm", "left rod", "right rod", "right arm", "ground"]
+    joints = [
+        jk.revolute(name, one, other, point=(*point, 0.0), axis=Z)
+        for name, one, other, point in zip("ABCDE", parts, parts[1:], points, strict=False)
+    ]
+    geared = jk.Mechanism.build(fixed=["ground"], joints=joints, couplings=[jk.gear("A", "E", ratio)])
+    assert coupled_turns(geared.linkage, ["C.phi"]) == told
 
 
 @pytest.mark.long
