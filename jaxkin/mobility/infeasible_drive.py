@@ -55,6 +55,8 @@ def _why_not(linkage: Linkage, found: LoopFreedoms, columns: Sequence[int]) -> I
     if not len(found.motions):
         given = listed(names(linkage, found, columns))
         immobile = tuple(dict.fromkeys(row for pair in found.ends.values() for row in pair))
+        if set(immobile) <= {found.fixed}:
+            return InfeasibleDrive(f"{given} cannot be driven: what it joins is fixed on both sides", ())
         return InfeasibleDrive(f"{given} cannot be driven: {_loops_of(found)} has no freedom", immobile)
     every, targets = _choices(found), _targets(linkage, found, columns)
     choices = [group for group in every if not _is_target(linkage, found, group[0])]

@@ -197,6 +197,17 @@ def test_what_makes_no_problem_is_refused(targets, options, message):
         jk.inverse(arm(), targets, **options)
 
 
+def test_a_frame_without_freedoms_has_no_inverse():
+    corners = {"A": ("ground", "left"), "B": ("left", "right"), "C": ("ground", "right")}
+    joints = [
+        jk.revolute(name, *parts, point=point, axis=(0, 0, 1))
+        for (name, parts), point in zip(corners.items(), [(0, 0, 0), (1, 1, 0), (2, 0, 0)], strict=True)
+    ]
+    frame = jk.Mechanism.build(fixed=["ground"], joints=joints)
+    with pytest.raises(ValueError, match="the mechanism has no freedom, so no target can move it"):
+        jk.inverse(frame, {jk.point("left", (1, 1, 0)): [[1.0, 1.1, 0.0]]})
+
+
 def test_targets_are_reached_where_jax_computes_in_float32():
     goal = tips(np.array([[0.5, 0.9, -0.7]]))[0]
     with jax.enable_x64(False):

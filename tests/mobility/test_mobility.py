@@ -185,6 +185,13 @@ def locked() -> Mechanism:
             r"driven A\.phi, C\.phi, but the mechanism of crank, coupler, rocker has 1 freedom: "
             r"drive only A\.phi, or one of B\.phi, C\.phi, D\.phi",
         ),
+        (
+            Mechanism.build(
+                fixed=["left", "right"], joints=[revolute("A", "left", "right", point=(0, 0, 0), axis=(0, 0, 1))]
+            ),
+            {"A": [0.0]},
+            r"^A\.phi cannot be driven: what it joins is fixed on both sides$",
+        ),
         (locked(), {"A": [0.0]}, r"A\.phi cannot be driven: the mechanism of left, right has no freedom"),
         (
             planar_fourbar(pin=cylindrical),

@@ -116,6 +116,8 @@ def inverse(
     starts, iterations = whole_number(starts, "starts", 1), whole_number(iterations, "iterations", 1)
     seed, limits = whole_number(seed, "seed"), yes_or_no(limits, "limits")
     wanted = several(inputs or mechanism.motors or _drivable(mechanism), "inputs", "coordinates")
+    if not wanted:
+        raise ValueError("the mechanism has no freedom, so no target can move it; print(mechanism) says what blocks it")
     problem = Problem(mechanism, aims_of(mechanism, targets, by_name(weights or {}, "weights", "{'A': 10.0}")))
     chosen = coordinates(mechanism.linkage, wanted)
     for name in chosen:
