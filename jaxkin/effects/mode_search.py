@@ -132,7 +132,7 @@ def find_modes(
     if by_formulas:
         poses, residual, names = _by_formulas(loop_group, inputs)
     else:
-        poses, residual = _from_starts(loop_group, inputs, starts)
+        poses, residual = _from_starts(loop_group, inputs, starts, _farthest(loop_group, loops))
         names = [""] * len(poses)
     (closed,) = np.nonzero(np.isfinite(residual) & (residual <= max_residual))
     poses, residual, names = poses[closed], residual[closed], [names[k] for k in closed]
@@ -223,15 +223,29 @@ def _formula_poses(
     return joint_displacements(system, joints, axes, jnp.asarray(solved.x)), residual
 
 
+def _farthest(loop_group: DrivenLoopGroup, loops: ClosedLoops) -> Float[np.ndarray, " columns"]:
+    """Say how far each column is moved at a start, radians and characteristic lengths: slides up to `FARTHEST_SLIDE`,
+    angles half a turn, and screws as many turns as advance by what slides do."""
+    farthest = np.where(np.array(loop_group.system.is_length), FARTHEST_SLIDE, np.pi)
+    for column, (joint, _) in enumerate(loop_group.columns):
+        chain = loops.chains[joint]
+        if chain.pitch and any(MOVEMENTS[movement].has_pitch for movement in chain.movements):
+            farthest[column] = max(np.pi, 2 * np.pi * FARTHEST_SLIDE / abs(chain.pitch))
+    return farthest
+
+
 def _from_starts(
-    loop_group: DrivenLoopGroup, inputs: Float[np.ndarray, " driven"], starts: Starts
+    loop_group: DrivenLoopGroup,
+    inputs: Float[np.ndarray, " driven"],
+    starts: Starts,
+    farthest: Float[np.ndarray, " columns"],
 ) -> tuple[Float[np.ndarray, "poses columns"], Float[np.ndarray, " poses"]]:
-    """Close the loops from random starts: angles and balls turned at random, slides up to `FARTHEST_SLIDE`."""
+    """Close the loops from random starts: columns moved by up to `farthest`, and balls turned at random."""
     system, rows, residuals, rng = loop_group.system, [], [], np.random.default_rng(starts.seed)
     size = min(starts.tries, STARTS_AT_ONCE)
     for _ in range(-(-starts.tries // size)):
         angles, slides = rng.uniform(-1.0, 1.0, (2, system.columns, size))
-        x = np.where(np.array(system.is_length)[:, None], FARTHEST_SLIDE * slides, np.pi * angles)
+        x = farthest[:, None] * np.where(np.array(system.is_length)[:, None], slides, angles)
         turns = rng.normal(size=(len(system.turned_balls), 4, size))
         turns /= np.linalg.norm(turns, axis=1, keepdims=True)
         begun = State(jnp.asarray(x, float), jnp.asarray(turns, float))

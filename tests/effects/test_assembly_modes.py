@@ -193,6 +193,24 @@ def test_full_turns_of_an_angle_that_moves_a_rack():
     assert not modes.complete and turns in str(modes)
 
 
+def test_modes_that_are_many_turns_of_a_screw_away():
+    """A ram at the height y over a rod of length 5 from a car that a screw moves: the car is at x or at -x."""
+    x, y, pitch, home = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), 0.5, (3.0, 0.0, 0.0)
+    joints = [
+        jk.screw("screw", "ground", "nut", point=(0.0, 0.0, 0.0), axis=x, pitch=pitch),
+        jk.prismatic("way", "ground", "car", axis=x),
+        jk.revolute("nut", "nut", "car", point=home, axis=x),
+        jk.revolute("foot", "car", "rod", point=home, axis=Z),
+        jk.revolute("top", "rod", "ram", point=(0.0, 4.0, 0.0), axis=Z),
+        jk.prismatic("ram", "ground", "ram", axis=y, point=(0.0, 4.0, 0.0)),
+    ]
+    press = jk.Mechanism.build(fixed=["ground"], joints=joints)
+    modes = jk.assembly_modes(press, {"ram": 0.5}, tries=32)
+    away = np.sqrt(25.0 - 4.5**2)
+    turns = sorted(mode.coordinates["screw"][0] / (2 * np.pi) for mode in modes)
+    np.testing.assert_allclose(turns, [(-away - 3.0) / pitch, (away - 3.0) / pitch], atol=1e-10)
+
+
 @pytest.mark.parametrize(("ratio", "told"), [(1.0, ()), (-2.0, ()), (0.5, ()), (-1.5, ("A.phi", "E.phi"))])
 def test_wheels_whose_full_turns_are_none(ratio, told):
     """Two cranks of a five-bar: with a whole ratio a turn of one is whole turns of both, and the pose the same."""
