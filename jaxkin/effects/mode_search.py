@@ -16,6 +16,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float, Int
 
+from jaxkin.effects.start_ranges import start_ranges
 from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.linkage.host_closure import ClosedLoops, Row
@@ -39,9 +40,6 @@ if TYPE_CHECKING:
 
 MAX_FORMULAS = 12
 """Most groups whose signs are tried in all combinations, 4096 of them; of more, poses are searched from many starts."""
-FARTHEST_SLIDE = 2.0
-"""Largest displacement of a slide at a start, characteristic lengths: a mechanism is some two of them wide to either
-side of its middle."""
 STARTS_AT_ONCE = 1024
 """Starts that are followed together: the Jacobians of so many stay within some megabytes."""
 SAME_POSE = 1e-6
@@ -132,7 +130,7 @@ def find_modes(
     if by_formulas:
         poses, residual, names = _by_formulas(loop_group, inputs)
     else:
-        poses, residual = _from_starts(loop_group, inputs, starts, _farthest(loop_group, loops))
+        poses, residual = _from_starts(loop_group, inputs, starts, start_ranges(loop_group, loops))
         names = [""] * len(poses)
     (closed,) = np.nonzero(np.isfinite(residual) & (residual <= max_residual))
     poses, residual, names = poses[closed], residual[closed], [names[k] for k in closed]
@@ -221,17 +219,6 @@ def _formula_poses(
     solved = solve_groups(system, axes, list(signs), inputs / lengths[:, None])
     residual = jnp.asarray(residual_norm(system, axes, solved.coordinates))
     return joint_displacements(system, joints, axes, jnp.asarray(solved.x)), residual
-
-
-def _farthest(loop_group: DrivenLoopGroup, loops: ClosedLoops) -> Float[np.ndarray, " columns"]:
-    """Say how far each column is moved at a start, radians and characteristic lengths: slides up to `FARTHEST_SLIDE`,
-    angles half a turn, and screws as many turns as advance by what slides do."""
-    farthest = np.where(np.array(loop_group.system.is_length), FARTHEST_SLIDE, np.pi)
-    for column, (joint, _) in enumerate(loop_group.columns):
-        chain = loops.chains[joint]
-        if chain.pitch and any(MOVEMENTS[movement].has_pitch for movement in chain.movements):
-            farthest[column] = max(np.pi, 2 * np.pi * FARTHEST_SLIDE / abs(chain.pitch))
-    return farthest
 
 
 def _from_starts(

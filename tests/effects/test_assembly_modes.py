@@ -211,6 +211,26 @@ def test_modes_that_are_many_turns_of_a_screw_away():
     np.testing.assert_allclose(turns, [(-away - 3.0) / pitch, (away - 3.0) / pitch], atol=1e-10)
 
 
+@pytest.mark.parametrize("radius", [0.08, 40.0])
+def test_a_pinion_that_follows_hides_no_mode(radius):
+    """Behind the same car as above a pinion turns, or a rack behind a large one: two modes, with it and without it."""
+    x, y, home, small = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (3.0, 0.0, 0.0), radius < 1
+    joints = [
+        jk.prismatic("way", "ground", "car", axis=x),
+        jk.revolute("foot", "car", "rod", point=home, axis=Z),
+        jk.revolute("top", "rod", "ram", point=(0.0, 4.0, 0.0), axis=Z),
+        jk.prismatic("ram", "ground", "ram", axis=y, point=(0.0, 4.0, 0.0)),
+        jk.revolute("pinion", "ground", "pinion", point=(0.0, -1.0, 0.0), axis=Z)
+        if small
+        else jk.prismatic("rack", "ground", "rack", axis=x, point=(0.0, -1.0, 0.0)),
+    ]
+    tie = jk.rack("pinion", "way", radius) if small else jk.relation({"rack": 1.0, "way": radius})
+    modes = jk.assembly_modes(jk.Mechanism.build(fixed=["ground"], joints=joints, couplings=[tie]), {"ram": 0.5})
+    away = np.sqrt(25.0 - 4.5**2)
+    found = sorted(mode.coordinates["way"][0] for mode in modes)
+    np.testing.assert_allclose(found, [-away - 3.0, away - 3.0], atol=1e-10)
+
+
 @pytest.mark.parametrize(("ratio", "told"), [(1.0, ()), (-2.0, ()), (0.5, ()), (-1.5, ("A.phi", "E.phi"))])
 def test_wheels_whose_full_turns_are_none(ratio, told):
     """Two cranks of a five-bar: with a whole ratio a turn of one is whole turns of both, and the pose the same."""
