@@ -7,8 +7,9 @@ equations of each loop, for optimisers outside jaxkin and as a check of the kern
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any
 
 import jax
 import jax.numpy as jnp
@@ -26,8 +27,9 @@ from jaxkin.linkage.linkage import Linkage
 from jaxkin.topology.structure import Structure
 
 
-class ClosureEquations(NamedTuple):
-    """The closure equations of all loops at one set of displacements."""
+@dataclass(frozen=True, eq=False)
+class ClosureEquations:
+    """The closure equations of all loops at one set of displacements. A pytree, whose names are static."""
 
     residual: Float[Array, " equations"]
     """Twelve entries a loop (Eq. 11), in the order of `structure.loops`. The displacement that is left when the loop
@@ -38,6 +40,9 @@ class ClosureEquations(NamedTuple):
     """Derivative of the residual with respect to the coordinates of all joints, one joint after the other."""
     coordinates: tuple[str, ...]
     """Names of the columns, "joint.coordinate"."""
+
+
+jax.tree_util.register_dataclass(ClosureEquations, data_fields=["residual", "jacobian"], meta_fields=["coordinates"])
 
 
 def closure_equations(linkage: Linkage, coordinates: Mapping[str, object]) -> ClosureEquations:

@@ -88,6 +88,15 @@ def test_newton_steps_of_ones_own_lead_to_the_pose_of_the_sweep():
     assert np.allclose(free, [swept[name][0] for name in "BCD"], atol=1e-12)
 
 
+def test_the_result_may_leave_jit_and_be_kept_in_a_set():
+    mechanism = planar_fourbar()
+    here = mechanism.closure({"A": 0.2})
+    inside = jax.jit(lambda t: mechanism.closure({"A": t}))(0.2)
+    assert inside.coordinates == here.coordinates
+    np.testing.assert_allclose(inside.residual, here.residual, atol=1e-15)  # rounding of a few products
+    assert len({here, inside, here}) == 2 and here == here != inside
+
+
 def test_wrong_coordinates_are_named():
     with pytest.raises(ValueError, match=r"no joint 'E'"):
         planar_fourbar().closure({"E": 0.1})
