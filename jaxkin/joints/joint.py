@@ -32,6 +32,10 @@ from jaxkin.joints.kinds import JointKind
 
 Array = np.ndarray | jax.Array
 
+JointCoordinate = tuple[int, int]
+"""(joint, coordinate): the number of a joint in `Linkage.joints`, and that of one of its `coordinates`. A pair (joint,
+sign) is no such thing, but a step of a walk: see `jaxkin.topology.graph`."""
+
 Limits = tuple[tuple[float, float], ...]
 """For each coordinate of a joint its lowest and highest displacement from the assembled pose, radians or lengths in the
 unit of the mechanism, -inf and inf where it has none; empty where no coordinate has limits."""

@@ -14,6 +14,7 @@ from jaxtyping import Array, Bool, Float
 from jaxkin._arguments import by_name
 from jaxkin._names import nearest
 from jaxkin._traced import traced
+from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.linkage import Linkage
 
 Given = Float[Array, " poses"] | Float[np.ndarray, " poses"]
@@ -46,11 +47,11 @@ def named(drive: Mapping[str, object]) -> tuple[str, ...]:
     return tuple(by_name(drive, "driven displacements", "{'A': angles}"))
 
 
-def coordinates(linkage: Linkage, keys: Sequence[str]) -> dict[str, tuple[int, int]]:
+def coordinates(linkage: Linkage, keys: Sequence[str]) -> dict[str, JointCoordinate]:
     """Resolve names of coordinates: full name "joint.coordinate" -> (joint, coordinate); ValueError as in `resolve`."""
     if not keys:
         raise ValueError("the drive is empty: name at least one joint, as in {'A': angles}")
-    driven: dict[str, tuple[int, int]] = {}
+    driven: dict[str, JointCoordinate] = {}
     for key in keys:
         joint, index = coordinate(linkage, key)
         name = linkage.joints[joint].full_names[index]
@@ -100,7 +101,7 @@ def with_finite_inputs(given: tuple[Given, ...]) -> tuple[tuple[Given, ...], Boo
     return tuple(found), finite
 
 
-def coordinate(linkage: Linkage, key: str) -> tuple[int, int]:
+def coordinate(linkage: Linkage, key: str) -> JointCoordinate:
     """Resolve a name "joint" or "joint.coordinate" into (joint, coordinate); ValueError where there is none."""
     names = [joint.name for joint in linkage.joints]
     if not isinstance(key, str):

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin.joints.joint import JointCoordinate
 from jaxkin.joints.screws import Screws
 
 
@@ -60,12 +61,12 @@ IN_SUBGROUP = 3
 """Independent equations of a planar loop at most, one of rotation and two of translation; and of a spherical loop, all
 three of rotation."""
 
-Columns = Sequence[tuple[int, int]]
-"""(joint, coordinate) of each column."""
+Columns = tuple[JointCoordinate, ...]
+"""Coordinates of joints in some order, such as that of the columns of a Jacobian."""
 
 
 def loop_jacobian(
-    loops: Sequence[Sequence[tuple[int, int]]], columns: Sequence[tuple[int, int]], screws: Screws
+    loops: Sequence[Sequence[tuple[int, int]]], columns: Columns, screws: Screws
 ) -> Float[np.ndarray, "equations columns"]:
     """Assemble the closure Jacobian: for each loop six rows that say that the twists of its joints add up to zero.
 

@@ -11,9 +11,9 @@ from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.linkage.coordinates import Given
+from jaxkin.linkage.first_order import Columns
 from jaxkin.solve.execution.known_numbers import Outcome
 from jaxkin.solve.status import SEVERITY, Status, closes_before_limits, of_severity, severity
-from jaxkin.solve.system.from_linkage import Columns
 
 Solution = tuple[Float[Array, "_ _"], Outcome]
 """Displacements of the columns of a loop group, and what became of the poses."""
@@ -24,7 +24,7 @@ class DisplacementSources(NamedTuple):
 
     freedoms: tuple[int, ...]
     """Of every joint."""
-    driven: tuple[tuple[int, int], ...]
+    driven: Columns
     """Joint and coordinate of every input."""
     columns: tuple[Columns, ...]
     """Of every loop group that was solved."""

@@ -15,9 +15,10 @@ from jax import dtypes, lax
 
 from jaxkin._memory import once_for_each
 from jaxkin._traced import traced
+from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.coordinates import coordinates
 from jaxkin.linkage.coupled_order import OrderOfLoops, order_with_couplings
-from jaxkin.linkage.first_order import IN_SUBGROUP
+from jaxkin.linkage.first_order import IN_SUBGROUP, Columns
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.linkage.loop_class import LoopClass
 from jaxkin.linkage.solve_order import Group, keep_freedoms_together, order_by_counting, solve_order
@@ -28,7 +29,7 @@ from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
 from jaxkin.solve.closed_form.assembled_axes import Axes, assembled_axes
 from jaxkin.solve.closed_form.group_formulas import why_not_all
 from jaxkin.solve.closed_form.line import Line, full_turn
-from jaxkin.solve.system.from_linkage import Columns, coupled_places, group_joints, group_system, solved_coordinates
+from jaxkin.solve.system.from_linkage import coupled_places, group_joints, group_system, solved_coordinates
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.topology.structure import LoopGroup
@@ -73,8 +74,8 @@ class DrivenLoopGroup(NamedTuple):
 class DrivePlan(NamedTuple):
     """A drive of a linkage, as yet without displacements: what is solved for it, and in which order."""
 
-    driven: dict[str, tuple[int, int]]
-    """(joint, coordinate) by full names, in the order given."""
+    driven: dict[str, JointCoordinate]
+    """The driven coordinates by full names, in the order given."""
     freedoms: tuple[int, ...]
     """Number of freedoms of every joint."""
     loop_groups: tuple[DrivenLoopGroup, ...]

@@ -18,6 +18,7 @@ import numpy as np
 from jaxtyping import Array, Bool, Float
 
 from jaxkin._traced import traced
+from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.coordinates import Given
 from jaxkin.mechanism.collect import Collected, DisplacementSources
 from jaxkin.solve.closed_form.assembled_axes import Axes
@@ -213,7 +214,7 @@ def _collect_chunks(
 
     displaced, residual = jax.tree.map(whole, *found)
     nothing = xp.zeros((poses,), rows.dtype)
-    place: dict[tuple[int, int], Any] = {}
+    place: dict[JointCoordinate, Any] = {}
     for number, (columns, own) in enumerate(zip(sources.columns, displaced, strict=True)):
         place |= dict(zip(columns, own, strict=True))
         for column in np.flatnonzero(turning(systems[number])) if systems else ():

@@ -18,12 +18,12 @@ from jax import lax
 from jaxtyping import Array, Float, Int
 
 from jaxkin._traced import traced
+from jaxkin.linkage.first_order import Columns
 from jaxkin.mechanism.drive_plan import DrivePlan, plan_drive
 from jaxkin.solve.closed_form.assembled_axes import Axes
 from jaxkin.solve.closed_form.known_poses_by_formula import known_displacements_by_formula
 from jaxkin.solve.range.known_poses import known_displacements
 from jaxkin.solve.status import Status, is_closed_on_branch
-from jaxkin.solve.system.from_linkage import Columns
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 

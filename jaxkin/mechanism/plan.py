@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from jaxkin._names import listed
 from jaxkin._traced import traced
+from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.describe import why_infeasible
@@ -21,9 +22,6 @@ from jaxkin.topology.moving import moving
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
-
-Place = tuple[int, int]
-"""(joint, coordinate)."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +73,9 @@ def plan(mechanism: Mechanism, drive: Iterable[Key]) -> Plan:
     return Plan(tuple(found.driven), tuple(steps), skipped, (*dead, *_notes(linkage, keys, found, steps)))
 
 
-def _notes(linkage: Linkage, driven: Collection[Place], found: DrivePlan, steps: Collection[Step]) -> list[str]:
+def _notes(
+    linkage: Linkage, driven: Collection[JointCoordinate], found: DrivePlan, steps: Collection[Step]
+) -> list[str]:
     """Tell what the drive leaves undetermined, and where the order is found by counting and not by ranks."""
     notes = []
     free = () if traced(linkage) else undriven_freedoms(linkage, list(driven))
@@ -91,7 +91,7 @@ def _notes(linkage: Linkage, driven: Collection[Place], found: DrivePlan, steps:
     return notes
 
 
-def _skipped(linkage: Linkage, driven: Collection[Place], found: DrivePlan) -> list[str]:
+def _skipped(linkage: Linkage, driven: Collection[JointCoordinate], found: DrivePlan) -> list[str]:
     """Tell of the structure elements without a driven joint, whose loops rest, and of coordinates outside of loops."""
     structure = linkage.structure
     given = {linkage.joints[joint].name for joint, _ in driven}

@@ -17,7 +17,9 @@ from jaxkin._arguments import by_name, check_mechanism, several
 from jaxkin._names import nearest
 from jaxkin._traced import traced
 from jaxkin.geometry.root import root
+from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.coordinates import coordinate, coordinates
+from jaxkin.linkage.first_order import Columns
 from jaxkin.mechanism.collect import nan_where_not_finite
 from jaxkin.mechanism.joint_limits import with_limited
 from jaxkin.mechanism.motion import Motion
@@ -27,7 +29,7 @@ from jaxkin.solve.correctors.nearest_pose import NearestPoses
 from jaxkin.solve.execution.programs import project as nearest_poses
 from jaxkin.solve.options import SolverOptions, options_with
 from jaxkin.solve.status import SEVERITY, Status, in_doubt, of_severity, severity
-from jaxkin.solve.system.from_linkage import Columns, group_joints, group_system
+from jaxkin.solve.system.from_linkage import group_joints, group_system
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
@@ -201,7 +203,7 @@ def _given(mechanism: Mechanism, given: Mapping[str, Any]) -> dict[str, Float[Ar
     }
 
 
-def _weights(mechanism: Mechanism, weights: Mapping[str, float | int]) -> dict[tuple[int, int], float]:
+def _weights(mechanism: Mechanism, weights: Mapping[str, float | int]) -> dict[JointCoordinate, float]:
     """Find the weight of each coordinate, (joint, coordinate); ValueError for one that is not positive."""
     every = {(number, k): 1.0 for number, joint in enumerate(mechanism.all_joints) for k in range(joint.freedoms)}
     for name, weight in by_name(weights, "weights", "{'A': 10.0}").items():

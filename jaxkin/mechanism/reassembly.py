@@ -18,6 +18,7 @@ from jaxkin._arguments import several
 from jaxkin._names import listed
 from jaxkin._traced import traced
 from jaxkin.geometry.pose import Pose, turned_by
+from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.host_closure import ClosedLoops, Row
 from jaxkin.linkage.linkage import Linkage
@@ -154,7 +155,7 @@ class _ClosedGroup:
 
 
 def _close_group(
-    linkage: Linkage, loop_group: LoopGroup, fixed: Container[tuple[int, int]], noise: float
+    linkage: Linkage, loop_group: LoopGroup, fixed: Container[JointCoordinate], noise: float
 ) -> _ClosedGroup:
     """Close loops from the given pose; where the steps end at a residual, by the nearest of those from other starts."""
     loops = ClosedLoops(linkage.joints, linkage.structure, loop_group, linkage.couplings)

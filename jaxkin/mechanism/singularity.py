@@ -11,11 +11,11 @@ from jaxtyping import Array, Float
 from jaxkin._names import listed
 from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import coordinate
-from jaxkin.linkage.first_order import null_space
+from jaxkin.linkage.first_order import Columns, null_space
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.loop_freedoms import loop_freedoms
 from jaxkin.solve.closure.smallest_singular_value import smallest_singular_value
-from jaxkin.solve.system.from_linkage import Columns, group_joints, group_system
+from jaxkin.solve.system.from_linkage import group_joints, group_system
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.motion import Motion

@@ -10,14 +10,13 @@ import numpy as np
 
 from jaxkin._names import counted, listed
 from jaxkin.joints.evidence import EvidenceKind
+from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.first_order import independent
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
 from jaxkin.mobility.mobility import drivable, independent_subset, names, outside_loops
 
-Coordinate = tuple[int, int]
-"""(joint, coordinate)."""
 AT_REST = 1e-6
 """Rate of a driven coordinate, in a motion of unit norm, below which the assembled pose is its dead point. The pose of
 a limit that was found to rounding, 1e-15, has the root of that."""
@@ -33,7 +32,7 @@ class InfeasibleDrive:
     """The rows of parts of loops that have no freedom at all; empty where another drive is feasible."""
 
 
-def infeasible_drive(linkage: Linkage, driven: Sequence[Coordinate]) -> InfeasibleDrive | None:
+def infeasible_drive(linkage: Linkage, driven: Sequence[JointCoordinate]) -> InfeasibleDrive | None:
     """Tell why the loops cannot follow a drive of these coordinates; None where they can, and where this is uncertain.
 
     A drive is infeasible only if its rates cannot be chosen independently, neither at the assembled pose nor at a pose
@@ -169,7 +168,7 @@ def _or(linkage: Linkage, found: LoopFreedoms, groups: Sequence[Sequence[int]]) 
     return listed([" with ".join(names(linkage, found, group)) for group in groups])
 
 
-def dead_point(linkage: Linkage, driven: Sequence[Coordinate]) -> str | None:
+def dead_point(linkage: Linkage, driven: Sequence[JointCoordinate]) -> str | None:
     """Tell that driven coordinates are at a dead point in the assembled pose, and what to do; None where none is.
 
     There the loops move while the drive is at rest to first order, and for each input beside it there are two poses or
@@ -192,7 +191,7 @@ def dead_point(linkage: Linkage, driven: Sequence[Coordinate]) -> str | None:
     return None
 
 
-def undriven_freedoms(linkage: Linkage, driven: Sequence[Coordinate]) -> tuple[str, ...]:
+def undriven_freedoms(linkage: Linkage, driven: Sequence[JointCoordinate]) -> tuple[str, ...]:
     """Name the coordinates that a drive leaves free in the loops that it moves, without those of idle freedoms."""
     spinning = [part.name for part in linkage.spinning]
     return tuple(
@@ -215,7 +214,7 @@ def _loops_of(found: LoopFreedoms) -> str:
     return f"the mechanism of {listed([part for part in parts if part != found.fixed])}"
 
 
-def _driven_groups(linkage: Linkage, driven: Sequence[Coordinate]) -> Iterator[tuple[LoopFreedoms, list[int]]]:
+def _driven_groups(linkage: Linkage, driven: Sequence[JointCoordinate]) -> Iterator[tuple[LoopFreedoms, list[int]]]:
     """Yield the loop groups that hold driven coordinates, with the columns of these, if their loops can be closed."""
     for found in loop_freedoms(linkage):
         columns = [column for column, owner in enumerate(found.columns) if owner in driven]

@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin._names import nearest
+from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.mechanism.targets import Target, check_rigid, middle_of_joints
 
@@ -36,7 +37,7 @@ class PartAim:
 class JointAim:
     """The displacement of one coordinate."""
 
-    place: tuple[int, int]
+    place: JointCoordinate
     """Number of the joint, and of its coordinate."""
     values: Float[np.ndarray, " poses"]
     weight: float

@@ -14,6 +14,7 @@ from jaxtyping import Array, Float
 from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.geometry.trig import TURN
 from jaxkin.joints.coupling import Coupling
+from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.closure_equations import closure_residual
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.joint_motion import part_transforms
@@ -147,7 +148,7 @@ def _evaluated(
 def _coupling(
     linkage: Linkage,
     coupling: Coupling,
-    places: Sequence[tuple[int, int]],
+    places: Sequence[JointCoordinate],
     units: Sequence[float],
     scaled: Float[Array, " columns"],
 ) -> Float[Array, ""]:

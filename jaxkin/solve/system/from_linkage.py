@@ -10,15 +10,13 @@ from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.partial_movement import remaining
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.coordinates import coordinate
+from jaxkin.linkage.first_order import Columns
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.linkage.loop_class import LoopClass, renumbered
 from jaxkin.solve.system.joints import CouplingNumbers, Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.topology.graph import Circuit
 from jaxkin.topology.structure import LoopGroup
-
-Columns = tuple[tuple[int, int], ...]
-"""(joint, coordinate) of each column, numbered as in the linkage."""
 
 SolvedTogether = tuple[Sequence[Circuit], Sequence[int]]
 """Loops, and numbers of couplings in the linkage, that are solved together."""
@@ -39,7 +37,7 @@ class SolvedCoordinates(NamedTuple):
 def solved_coordinates(
     linkage: Linkage, loop_group: LoopGroup, driven: Columns, loop_class: LoopClass
 ) -> SolvedCoordinates:
-    """Select the coordinates of a loop group that are solved or driven; `driven` are (joint, coordinate).
+    """Select the coordinates of a loop group that are solved or driven.
 
     A loop group with a plane is solved in the plane, with all other coordinates at rest, unless one of these is driven
     or coupled.
@@ -101,7 +99,7 @@ def group_system(
 
 
 def coupled_places(linkage: Linkage, number: int) -> Columns:
-    """List the (joint, coordinate) of each coordinate that a coupling ties."""
+    """List the coordinates that a coupling ties."""
     return tuple(coordinate(linkage, name) for name in linkage.couplings[number].coordinates)
 
 
