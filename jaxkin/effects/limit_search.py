@@ -14,7 +14,7 @@ from jaxkin.effects.motion_curve import FIRST_STEP, Curve, CurvePoint
 from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.trig import TURN
-from jaxkin.joints.joint import Joint
+from jaxkin.joints.joint import Joint, JointCoordinate
 from jaxkin.mobility.infeasible_drive import infeasible_drive, undriven_freedoms
 
 if TYPE_CHECKING:
@@ -187,7 +187,7 @@ def _and(names: Sequence[str]) -> str:
     return listed(names) if len(names) > 8 else " and ".join([", ".join(names[:-1]), names[-1]] if names[1:] else names)
 
 
-def why_singular(mechanism: Mechanism, curve: Curve, driven: Sequence[tuple[int, int]]) -> str:
+def why_singular(mechanism: Mechanism, curve: Curve, driven: Sequence[JointCoordinate]) -> str:
     """Say why no motion of the drive, the first of `driven`, begins at the assembled pose, and what to do.
 
     At a limit of the drive another coordinate still moves: the fastest one that can be driven in its place, those of
@@ -215,7 +215,7 @@ def why_singular(mechanism: Mechanism, curve: Curve, driven: Sequence[tuple[int,
     )
 
 
-def _full_name(mechanism: Mechanism, place: tuple[int, int]) -> str:
+def _full_name(mechanism: Mechanism, place: JointCoordinate) -> str:
     """Return the name "joint.coordinate" of a coordinate."""
     joint, k = place
     return mechanism.all_joints[joint].full_names[k]

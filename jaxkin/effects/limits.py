@@ -25,6 +25,7 @@ from jaxkin.effects.mode_search import PoseFeatures
 from jaxkin.effects.motion_curve import Curve
 from jaxkin.effects.pose_plot import save_displacements
 from jaxkin.geometry.movements import is_length
+from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.coordinates import coordinate, coordinates
 from jaxkin.linkage.host_closure import ClosedLoops
 from jaxkin.mechanism.describe import why_infeasible
@@ -36,9 +37,6 @@ from jaxkin.mobility.open_loops import check_closed
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
-
-Place = tuple[int, int]
-"""(joint, coordinate)."""
 
 
 @dataclass(frozen=True)
@@ -168,7 +166,7 @@ def limits(
     return _limits_in_loops(mechanism, name, place, curve, lower, upper)
 
 
-def _ranges(mechanism: Mechanism, given: Mapping[str, Sequence[float]]) -> dict[Place, tuple[float, float]]:
+def _ranges(mechanism: Mechanism, given: Mapping[str, Sequence[float]]) -> dict[JointCoordinate, tuple[float, float]]:
     """List the ranges of coordinates: those of joints, replaced by those given.
 
     Raises ValueError where they exclude the assembled pose.
@@ -200,13 +198,13 @@ def _ranges(mechanism: Mechanism, given: Mapping[str, Sequence[float]]) -> dict[
     return found
 
 
-def _is_length(mechanism: Mechanism, place: Place) -> bool:
+def _is_length(mechanism: Mechanism, place: JointCoordinate) -> bool:
     joint, k = place
     return is_length(mechanism.all_joints[joint].coordinates[k])
 
 
 def _limits_of_joint(
-    mechanism: Mechanism, name: str, place: Place, given: Mapping[Place, tuple[float, float]]
+    mechanism: Mechanism, name: str, place: JointCoordinate, given: Mapping[JointCoordinate, tuple[float, float]]
 ) -> Limits:
     """Make the limits of a drive that is in no loop: the range of its joint."""
     joint, k = place
@@ -226,7 +224,7 @@ def _limits_of_joint(
 
 
 def _limits_in_loops(
-    mechanism: Mechanism, name: str, place: Place, curve: Curve, lower: FoundLimit, upper: FoundLimit
+    mechanism: Mechanism, name: str, place: JointCoordinate, curve: Curve, lower: FoundLimit, upper: FoundLimit
 ) -> Limits:
     """Make the limits of a drive in loops, in words and in coordinates of all joints."""
     ends = [_limit(mechanism, name, curve, end, side) for end, side in ((lower, -np.inf), (upper, np.inf))]
@@ -255,7 +253,9 @@ def _limit(mechanism: Mechanism, name: str, curve: Curve, end: FoundLimit, side:
     return Limit(at, end.kind, moving, f"{name} locks: {why}", shown)
 
 
-def _limits(mechanism: Mechanism, name: str, place: Place, lower: Limit, upper: Limit, full_turn: bool) -> Limits:
+def _limits(
+    mechanism: Mechanism, name: str, place: JointCoordinate, lower: Limit, upper: Limit, full_turn: bool
+) -> Limits:
     """Make the result, with the motion of the limits that there are and the assembled pose between them."""
     home = {joint.name: np.zeros(joint.freedoms) for joint in mechanism.all_joints}
     poses = [*([lower.coordinates] if lower.coordinates else []), home]

@@ -21,6 +21,7 @@ from jaxkin.effects.grid_flood import flood
 from jaxkin.effects.pose_plot import save_rows
 from jaxkin.effects.workspace_plot import WorkspaceMap, draw_workspace
 from jaxkin.linkage.coordinates import coordinates
+from jaxkin.linkage.first_order import Columns
 from jaxkin.linkage.joint_motion import part_transforms
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.describe import why_infeasible
@@ -33,7 +34,6 @@ from jaxkin.solve.options import SolverOptions, options_with
 from jaxkin.solve.range.poses import Poses
 from jaxkin.solve.range.solve_range import displacements
 from jaxkin.solve.status import Status, default_tolerance
-from jaxkin.solve.system.from_linkage import Columns
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 
@@ -233,7 +233,7 @@ class _Layout(NamedTuple):
     """What goes where in a pose (static)."""
 
     freedoms: tuple[int, ...]
-    driven: tuple[tuple[int, int], ...]
+    driven: Columns
     systems: tuple[LoopSystem, ...]
     columns: tuple[Columns, ...]
     inputs: tuple[tuple[int, ...], ...]

@@ -36,7 +36,7 @@ from jaxkin.effects.forces.joint_balance import JointBalance, Wrenches
 from jaxkin.effects.forces.screws import Places, Scale, Twist, cross
 from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.movements import MOVEMENTS, is_length
-from jaxkin.joints.joint import Joint
+from jaxkin.joints.joint import Joint, JointCoordinate
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.known_motion import Rows
@@ -59,11 +59,11 @@ class Balance(NamedTuple):
     screws: tuple[tuple[Twist, ...], ...]
     """Unit twists of the coordinates of each joint. The angles of a ball without a drive are replaced by turns about
     the axes of the world, which allow the same at every angle."""
-    gradients: tuple[dict[tuple[int, int], Float[Array, " poses"]], ...]
+    gradients: tuple[dict[JointCoordinate, Float[Array, " poses"]], ...]
     """For each coupling its derivatives by (joint, coordinate), lengths over the size."""
 
 
-def balance(linkage: Linkage, at: Places, displacements: Rows, driven: Sequence[tuple[int, int]]) -> Balance:
+def balance(linkage: Linkage, at: Places, displacements: Rows, driven: Sequence[JointCoordinate]) -> Balance:
     """Find the joints in each pose, all of which have been placed; `driven` are (joint, coordinate)."""
     arms = tuple(at.joints[number].point for number in range(len(linkage.joints)))
     screws = []
@@ -112,9 +112,9 @@ class Transmitted(NamedTuple):
 def solve(
     linkage: Linkage,
     found: Balance,
-    driven: Sequence[tuple[int, int]],
+    driven: Sequence[JointCoordinate],
     acting: dict[str, Wrenches],
-    loaded: dict[tuple[int, int], Float[Array, " poses"]],
+    loaded: dict[JointCoordinate, Float[Array, " poses"]],
 ) -> Transmitted:
     """Solve the balance of all parts for what the joints transmit, of least norm.
 
@@ -130,10 +130,10 @@ def solve(
 
 def _solve(
     linkage: Linkage,
-    driven: Sequence[tuple[int, int]],
+    driven: Sequence[JointCoordinate],
     found: Balance,
     acting: dict[str, Wrenches],
-    loaded: dict[tuple[int, int], Float[Array, " poses"]],
+    loaded: dict[JointCoordinate, Float[Array, " poses"]],
 ) -> Transmitted:
     """Solve the balance for one group of poses: see `solve`."""
     tree, poses = tree_of(linkage), found.arms[0].shape[1]
@@ -143,7 +143,7 @@ def _solve(
     joints = [JointBalance.of(arm, every, own) for arm, every, own in zip(found.arms, found.screws, free, strict=True)]
     none = jnp.zeros(poses)
 
-    def in_free(given: dict[tuple[int, int], Array]) -> list[Float[Array, "free poses"]]:
+    def in_free(given: dict[JointCoordinate, Array]) -> list[Float[Array, "free poses"]]:
         each = ([given.get((number, k), none) for k in own] for number, own in enumerate(free))
         return [jnp.stack(rows) if rows else jnp.zeros((0, poses)) for rows in each]
 

@@ -9,11 +9,12 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
+from jaxkin.joints.joint import JointCoordinate
 from jaxkin.mechanism.known_motion import Follow, Inputs, KnownDrive, KnownMotion, Rows, derivatives, follow
 from jaxkin.solve.execution.compiler import whole_program
 from jaxkin.topology.components import connected
 
-ByCoordinate = dict[tuple[int, int], Float[Array, " poses"]]
+ByCoordinate = dict[JointCoordinate, Float[Array, " poses"]]
 """One number a pose for each of some coordinates (joint, coordinate)."""
 ORDER = 2
 """Order of the derivatives of the motion from which forces follow: the accelerations of masses."""
@@ -90,7 +91,7 @@ def _independent(drive: KnownDrive, known: KnownMotion) -> list[tuple[list[str],
     return found
 
 
-def _moved(drive: KnownDrive) -> dict[str, list[tuple[int, int]]]:
+def _moved(drive: KnownDrive) -> dict[str, list[JointCoordinate]]:
     """List the coordinates (joint, coordinate) that each driven displacement moves, itself first."""
     return {
         name: list(

@@ -42,6 +42,7 @@ from jaxkin.effects.forces.wrenches import (
 )
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.units import METRES
+from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.known_motion import Inputs, KnownDrive, KnownMotion, Rows, known_motion
 from jaxkin.mechanism.motion import Motion
@@ -279,7 +280,7 @@ def _by_coordinate(
     frictional: dict[int, Wrench],
     moving: Moving,
     sent: dict[int, Wrench],
-) -> dict[tuple[int, int], Float[Array, " poses"]]:
+) -> dict[JointCoordinate, Float[Array, " poses"]]:
     """Compute the generalised force that balances all loads for each (joint, coordinate): joules per radian, or per
     unit of length of the mechanism.
 

@@ -37,6 +37,7 @@ from jaxkin.effects.forces.screws import Twist, cross, relative_twist, velocity_
 from jaxkin.effects.forces.wrenches import Loads, Moving
 from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.geometry.units import METRES
+from jaxkin.joints.joint import JointCoordinate
 from jaxkin.joints.kinds import JointKind
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.known_motion import KnownDrive
@@ -150,7 +151,7 @@ def _pressing(
     poses = found.arms[0].shape[1]
 
     def pressed(
-        acting: dict[str, Twist], loaded: dict[tuple[int, int], Array], friction_loads: Float[Array, "joints poses"]
+        acting: dict[str, Twist], loaded: dict[JointCoordinate, Array], friction_loads: Float[Array, "joints poses"]
     ) -> Float[Array, "joints 4 poses"]:
         sent = solve(linkage, found, driven, acting, loaded).wrenches
         each = zip(numbers, given, friction_loads, strict=True)

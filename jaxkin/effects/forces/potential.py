@@ -28,6 +28,7 @@ from jaxkin.effects.forces.screws import Scale
 from jaxkin.geometry.elementary_motions import amount, displaced_columns
 from jaxkin.geometry.movements import MOVEMENTS, Movement
 from jaxkin.geometry.trig import cos_sin
+from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.solve.execution.compiler import whole_program
 
@@ -179,7 +180,7 @@ def _turned(places: Float[Array, "parts 4 4"], points: Float[Array, "parts 3"]) 
 
 def _turns(
     linkage: Linkage, moving: Sequence[_Passage], displacements: Sequence[Float[Array, "poses _"]]
-) -> dict[tuple[int, int], tuple[Any, Any]]:
+) -> dict[JointCoordinate, tuple[Any, Any]]:
     """Compute cosine and sine of each angle (joint, coordinate), of all at once: a few operations for many joints."""
     angles = dict.fromkeys(
         (each.joint, each.first + element.coordinate)
@@ -196,7 +197,7 @@ def _turns(
 
 
 def _motions(
-    linkage: Linkage, passage: _Passage, q: Float[Array, "poses _"], turns: dict[tuple[int, int], tuple[Any, Any]]
+    linkage: Linkage, passage: _Passage, q: Float[Array, "poses _"], turns: dict[JointCoordinate, tuple[Any, Any]]
 ) -> list[tuple[int, tuple[Any, Any]]]:
     """List the elementary motions of a movement in their order along the tree: axis, how far along and about it."""
     joint, movement = linkage.joints[passage.joint], _movement(linkage, passage)

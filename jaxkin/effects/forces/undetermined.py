@@ -12,6 +12,7 @@ from jaxtyping import Float
 from jaxkin._traced import traced
 from jaxkin.effects.forces.balance import Balance, balance
 from jaxkin.effects.forces.screws import places
+from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.known_motion import Rows, known_motion
 from jaxkin.mechanism.motion import Motion
@@ -63,7 +64,7 @@ def undetermined(motion: Motion) -> tuple[Undetermined, ...]:
 
 
 @partial(whole_program, static=(0,))
-def _placed(driven: tuple[tuple[int, int], ...], linkage: Linkage, displacements: Rows) -> Balance:
+def _placed(driven: tuple[JointCoordinate, ...], linkage: Linkage, displacements: Rows) -> Balance:
     """Place all joints in one program: each operation by itself would be compiled, too."""
     return balance(linkage, places(linkage, displacements, chords=True), displacements, driven)
 
@@ -85,13 +86,13 @@ def _joint_at(system: Balance, joint: int, free: list[int], pose: int) -> tuple[
 
 
 def _at(
-    motion: Motion, system: Balance, driven: tuple[tuple[int, int], ...], pose: int
+    motion: Motion, system: Balance, driven: tuple[JointCoordinate, ...], pose: int
 ) -> tuple[int, tuple[Undetermined, ...]]:
     """Count the open reactions at a pose of a `Balance`, and tell in which joints they are."""
     linkage = motion.mechanism.linkage
     moving = [part for part in linkage.parts if part not in linkage.fixed]
     columns, owner, bases, levers = [], [], [], []
-    pulls: dict[tuple[int, int], np.ndarray] = {}
+    pulls: dict[JointCoordinate, np.ndarray] = {}
     for number, joint in enumerate(linkage.joints):
         free = [k for k in range(joint.freedoms) if (number, k) not in driven]
         basis, loads, lever = _joint_at(system, number, free, pose)

@@ -25,6 +25,7 @@ from jaxkin.effects.forces.screws import Places, Twist, cross, places, turned, t
 from jaxkin.effects.rates import tangents_of
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.units import METRES
+from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.known_motion import Inputs, Rows
@@ -46,7 +47,7 @@ class Loads(NamedTuple):
 
     parts: dict[str, Wrench]
     """On each part on which something acts and that is not fixed."""
-    joints: dict[tuple[int, int], Float[Array, " poses"]]
+    joints: dict[JointCoordinate, Float[Array, " poses"]]
     """Loads in coordinates (joint, coordinate): newton metres, newtons."""
 
 
@@ -107,7 +108,7 @@ def loads(linkage: Linkage, unit: str, acting: ActingNumbers, moving: Moving) ->
     if acting.masses is not None:
         for part in moving.at.parts:
             found[part] = _of_mass(moving, acting.masses, acting.gravity, part, lever)
-    in_joints: dict[tuple[int, int], Array] = {}
+    in_joints: dict[JointCoordinate, Array] = {}
     for each in acting.applied:
         if isinstance(each, JointLoad):
             at, load = _in_joint(linkage, unit, moving, each)
@@ -256,7 +257,7 @@ def _of_spring(moving: Moving, load: Spring, lever: Any):
     yield load.parts[1], wrench_at(ends[1], -pull)
 
 
-def _loaded(linkage: Linkage, load: JointLoad) -> tuple[int, int]:
+def _loaded(linkage: Linkage, load: JointLoad) -> JointCoordinate:
     """Resolve the (joint, coordinate) of a load; ValueError where it is an angle of a ball."""
     joint, index = coordinate(linkage, load.coordinate)
     if any(index in group and len(group) > 1 for group in linkage.joints[joint].driven_together):
@@ -268,7 +269,7 @@ def _loaded(linkage: Linkage, load: JointLoad) -> tuple[int, int]:
 
 def _in_joint(
     linkage: Linkage, unit: str, moving: Moving, load: JointLoad
-) -> tuple[tuple[int, int], Float[Array, " poses"]]:
+) -> tuple[JointCoordinate, Float[Array, " poses"]]:
     """Compute a load in a coordinate, newton metres or newtons: load - stiffness (q - rest) - damping q'."""
     joint, index = _loaded(linkage, load)
     metre = metres_of(linkage.joints[joint].coordinates[index], unit)
