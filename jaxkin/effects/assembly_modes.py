@@ -23,17 +23,15 @@ from jaxkin._arguments import by_name, check_mechanism, one_number, text, whole_
 from jaxkin._names import counted, listed
 from jaxkin._traced import traced
 from jaxkin.effects.coupled_turns import coupled_turns
+from jaxkin.effects.determined_drive import check_determined
 from jaxkin.effects.mode_plot import draw_modes
 from jaxkin.effects.mode_search import FoundPoses, PoseFeatures, Starts, find_modes, wrap_angles
 from jaxkin.effects.pose_plot import save_displacements
 from jaxkin.linkage.coordinates import coordinate, resolve
 from jaxkin.linkage.host_closure import ClosedLoops
-from jaxkin.mechanism.describe import why_infeasible
 from jaxkin.mechanism.drive_plan import DrivenLoopGroup, plan_drive
 from jaxkin.mechanism.motion import Motion
-from jaxkin.mobility.infeasible_drive import undriven_freedoms
 from jaxkin.mobility.loop_freedoms import loop_freedoms
-from jaxkin.mobility.open_loops import check_closed
 from jaxkin.solve.options import SolverOptions, options_with
 from jaxkin.solve.status import Status, default_tolerance
 
@@ -207,17 +205,9 @@ def assembly_modes(
     options, linkage = options_with(options), mechanism.linkage
     ranges = _ranges(drive)
     driven = resolve(linkage, ranges)
-    places = [(entry.joint, entry.coordinate) for entry in driven.values()]
-    check_closed(linkage, mechanism.unit, "assembly modes", "jk.assembly_modes({}, drive)")
-    if linkage.ideal:
-        raise ValueError(f"assembly modes need loops that close: {'; '.join(mechanism.alignment)}")
+    places = {name: (entry.joint, entry.coordinate) for name, entry in driven.items()}
+    check_determined(mechanism, places, "assembly modes", "jk.assembly_modes({}, drive)", "give")
     plan = plan_drive(linkage.in_space, tuple(ranges))
-    if plan.infeasible:
-        raise ValueError(why_infeasible(mechanism, plan.infeasible))
-    if free := undriven_freedoms(linkage, places):
-        raise ValueError(
-            f"the drive leaves freedoms, so that there are infinitely many closed poses: give {listed(free)} too"
-        )
     given = {name: float(np.asarray(entry.values)[0]) for name, entry in driven.items()}
     # the pose itself needs no solver, which takes seconds to compile
     reached = mechanism.sweep(ranges, options=options) if any(given.values()) else None

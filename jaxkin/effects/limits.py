@@ -17,8 +17,8 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin._arguments import by_name, check_mechanism, several
-from jaxkin._names import listed
 from jaxkin._traced import traced
+from jaxkin.effects.determined_drive import check_determined
 from jaxkin.effects.limit_search import CoordinateRange, FoundLimit, LimitKind, find_limit, why_locked, why_singular
 from jaxkin.effects.mode_plot import draw_modes
 from jaxkin.effects.mode_search import PoseFeatures
@@ -28,12 +28,9 @@ from jaxkin.geometry.movements import is_length
 from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.coordinates import coordinate, coordinates
 from jaxkin.linkage.host_closure import ClosedLoops
-from jaxkin.mechanism.describe import why_infeasible
 from jaxkin.mechanism.joint_limits import rounding
 from jaxkin.mechanism.motion import Motion
-from jaxkin.mobility.infeasible_drive import infeasible_drive, undriven_freedoms
 from jaxkin.mobility.loop_freedoms import loop_freedoms
-from jaxkin.mobility.open_loops import check_closed
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
@@ -129,15 +126,7 @@ def limits(
     hold = [drive, *several(hold, "hold", "coordinates")]
     driven = coordinates(linkage, hold)
     name, place = next(iter(driven.items()))
-    check_closed(linkage, mechanism.unit, "limits", f"jk.limits({{}}, {drive!r})")
-    if linkage.ideal:
-        raise ValueError(f"limits need loops that close: {'; '.join(mechanism.alignment)}")
-    if (infeasible := infeasible_drive(linkage, list(driven.values()))) is not None:
-        raise ValueError(why_infeasible(mechanism, infeasible))
-    if free := undriven_freedoms(linkage, list(driven.values())):
-        raise ValueError(
-            f"{name} alone does not determine the motion: hold {listed(free)} too, as in hold=[{free[0]!r}]"
-        )
+    check_determined(mechanism, driven, "limits", f"jk.limits({{}}, {drive!r})", "hold")
     given = _ranges(mechanism, ranges or {})
     group = next((each for each in linkage.structure.loop_groups if place[0] in each.joints), None)
     if group is None:

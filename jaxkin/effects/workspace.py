@@ -17,6 +17,7 @@ from jaxtyping import Array, Bool, Float, Int
 from jaxkin._arguments import by_name, check_mechanism, numbers, several
 from jaxkin._names import listed, nearest
 from jaxkin._traced import traced
+from jaxkin.effects.determined_drive import check_determined
 from jaxkin.effects.grid_flood import flood
 from jaxkin.effects.pose_plot import save_rows
 from jaxkin.effects.workspace_plot import WorkspaceMap, draw_workspace
@@ -24,12 +25,9 @@ from jaxkin.linkage.coordinates import coordinates
 from jaxkin.linkage.first_order import Columns
 from jaxkin.linkage.joint_motion import part_transforms
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.mechanism.describe import why_infeasible
 from jaxkin.mechanism.drive_plan import plan_drive
 from jaxkin.mechanism.joint_limits import beyond_as_assembled, with_limited
 from jaxkin.mechanism.motion import Motion, as_point
-from jaxkin.mobility.infeasible_drive import undriven_freedoms
-from jaxkin.mobility.open_loops import check_closed
 from jaxkin.solve.options import SolverOptions, options_with
 from jaxkin.solve.range.poses import Poses
 from jaxkin.solve.range.solve_range import displacements
@@ -156,14 +154,8 @@ def workspace(
         raise ValueError(f"there is no part {part!r}{nearest(part, mechanism.parts)}")
     keys = (*grid, *several(hold, "hold", "coordinates"))
     driven = coordinates(linkage, keys)
-    check_closed(linkage, mechanism.unit, "a workspace", "jk.workspace({}, ...)")
-    if linkage.ideal:
-        raise ValueError(f"a workspace needs loops that close: {'; '.join(mechanism.alignment)}")
+    check_determined(mechanism, driven, "a workspace", "jk.workspace({}, ...)", "hold")
     plan = plan_drive(linkage, keys)
-    if plan.infeasible:
-        raise ValueError(why_infeasible(mechanism, plan.infeasible))
-    if free := undriven_freedoms(linkage, list(driven.values())):
-        raise ValueError(f"the two inputs leave freedoms: hold {listed(free)} too, as in hold=[{free[0]!r}]")
     where = as_point(point)
 
     first, second = grid.values()
