@@ -61,6 +61,7 @@ from jaxkin.assembly.inference.slides import guided_on_faces, loose_slides
 from jaxkin.assembly.inference.slotted import clamped_on_slots
 from jaxkin.assembly.inference.spacers import spacers
 from jaxkin.assembly.inference.standing import butting_pins, embedded_pins, standing_rods
+from jaxkin.assembly.inference.stopped_joint import StoppedJoint
 from jaxkin.assembly.inference.tapers import self_holding_tapers
 from jaxkin.assembly.inference.tight_ends import bolted_ends, pressed_pins, riveted_studs, screwed_on_ends
 from jaxkin.assembly.inference.tube_clamps import clamped_halves, u_bolts
@@ -97,12 +98,29 @@ def infer(
 
     Between the parts of pairs that are `ignored` nothing is inferred; `clearance` is that of `common_axes`.
     What is pushed by `springs` is not stopped by them. The parts of pairs that are `apart` are not inferred to be one
-    body.
+    body. Rules are called in ranks, one function each below; the order within a function counts as well.
     """
     known = Known(measured, contacts, fixed, rigid, joints, ignored, clearance, apart)
     known.springs = {*springs}
+    _take_bearings(known)
+    fastening = _take_hubs_and_find_fasteners(known)
+    _take_pins_in_one_part(known, fastening)
+    _take_what_fasteners_hold(known, fastening)
+    stopped = _take_joints_between_bodies(known, fastening)
+    _take_what_is_left(known, stopped.guided)
 
-    # rolling bearings: rings, balls, and what lies on one ring only
+    # what would stop slides that contacts allow, by how sure it is
+    body = known.body
+    replacing = [each for each in stopped.joined if each.replaces_slide]
+    replacing = [each for each in replacing if len({body[part] for part in each.inference.parts}) > 1]
+    stops = [[each.inference for each in replacing if each.stop is level] for level in Stop]
+    return Inferred(known.found, stops, frozenset(fastening))
+
+
+def _take_bearings(known: Known) -> None:
+    """Take what rolling bearings tell: their rings and balls, what lies on one ring only, and bearings that are one
+    ring each in what they sit in."""
+    measured = known.measured
     rolling = measured.bearings
     known.axes = outside_of(rolling, known.axes)
     known.rings = {frozenset((each.outer, each.inner)) for each in rolling}
@@ -113,7 +131,10 @@ def infer(
     known.closed = {each.part.name for each in closed}
     known.take(closed_bearing_bodies(known, closed))
 
-    # shafts and hubs: keys, flats, balls of rod ends, split rings, bushes, screws across
+
+def _take_hubs_and_find_fasteners(known: Known) -> set[str]:
+    """Take what holds shafts and hubs to each other, keys, flats, balls of rod ends, split rings, bushes and screws
+    across; find which of the parts of the form of a fastener are fasteners."""
     known.take(feathers(known))
     known.take([*keyed_hubs(known), *flatted_hubs(known)])
     known.take(bolted_balls(known))
@@ -124,22 +145,25 @@ def infer(
     known.take(seated_sleeves(known, set_in))
     fastening = fasteners(known.parts, [bore for pair in known.axes for bore in (pair.one, pair.other)], known.bores)
     known.take(clamped_hubs(known, fastening))
-    known.sleeves = {each.part for each in set_in} - {*fixed}
+    known.sleeves = {each.part for each in set_in} - {*known.fixed}
 
-    # which parts are fasteners: not rings and sleeves, nor what slides, turns or rolls
-    fastening -= {name for each in rolling for name in (each.outer, each.inner)} | known.sleeves | known.closed
+    # no fasteners are rings and sleeves, nor what slides, turns or rolls
+    rings = {name for each in known.measured.bearings for name in (each.outer, each.inner)}
+    fastening -= rings | known.sleeves | known.closed
     fastening -= sliding_rods(known, set_in) | hollow_axles(known) | driven | barrels(set_in)
     fastening -= rollers(known, fastening) | blocks_between_walls(known, fastening)
     known.take([*squared_hubs(known, fastening), *pressed_on_shoulders(known, fastening)])
     known.take(locked_threads(known, fastening))
     body = known.body
-    others = [each for each in contacts if not (each.contact_state.is_flat or each.contact_state.is_pin)]
+    others = [each for each in known.contacts if not (each.contact_state.is_flat or each.contact_state.is_pin)]
     others = [each for each in others if not (is_head_on_tube(known, each) or is_countersunk(known, each))]
     others = [each for each in others if not is_beside_its_hole(known, each)]
     separate = [each.parts for each in others if len({body[part] for part in each.parts}) > 1]
-    fastening -= {*fixed, *(part for parts in separate for part in parts)}
+    return fastening - {*known.fixed, *(part for parts in separate for part in parts)}
 
-    # pins that are in one part: threads, motors, posts, press fits, rivets, rings in grooves
+
+def _take_pins_in_one_part(known: Known, fastening: Collection[str]) -> None:
+    """Take pins that are in one part: by threads, motors, posts, press fits, rivets, rings in grooves."""
     known.take(screwed_in(known, fastening))
     known.take(motor_shafts(known, fastening))
     known.take(embedded_pins(known, fastening))
@@ -149,7 +173,9 @@ def infer(
     known.take([*riveted_studs(known, fastening), *screwed_on_ends(known), *screwed_fittings(known)])
     known.take([*pressed_rings(known), *retaining_rings(known)])
 
-    # what fasteners hold: patterns, then each fastener with its body, then one screw alone
+
+def _take_what_fasteners_hold(known: Known, fastening: Collection[str]) -> None:
+    """Take what patterns of fasteners hold, then each fastener with its body, then what one screw alone holds."""
     outside = [pair for pair in known.axes if not {*pair.parts} & known.closed]  # bearings hold no fastener
     touching = {pair for pair in known.touching if not pair & known.closed}
     drawn = stacks(outside, fastening, touching, known.order)
@@ -164,12 +190,24 @@ def infer(
     known.take(clamped_on_slots(known, every))
     known.take([*clamped_halves(known), *u_bolts(known)])
 
-    # joints between bodies: bearings, balls, shoes, hinges, slides, wheels
-    known.take(bearing_joints(known, rolling))
+
+class _StoppedJoints(NamedTuple):
+    """Joints between bodies with what stops their slides; of these, those that replace a slide are not taken yet."""
+
+    joined: list[StoppedJoint]
+    """All of them."""
+    guided: list[StoppedJoint]
+    """Those that walls guide along faces."""
+
+
+def _take_joints_between_bodies(known: Known, fastening: Collection[str]) -> _StoppedJoints:
+    """Take joints between bodies, but for those that would replace a slide: by bearings, balls, shoes, hinges, slides,
+    wheels."""
+    known.take(bearing_joints(known, known.measured.bearings))
     known.take(ball_joints(known))
     known.take(shoes(known))
     known.take([*pinned_slides(known), *dowelled(known)])
-    turning = closed_bearing_joints(known, closed)
+    turning = closed_bearing_joints(known, known.measured.closed_bearings)
     known.take([each.inference for each in turning if not each.replaces_slide])
     body = known.body
     borne = {frozenset(body[part] for part in each.inference.parts) for each in turning}
@@ -181,19 +219,14 @@ def infer(
     known.take([each.inference for each in joined if not each.replaces_slide and each not in turning])
     known.take(loose_slides(known))
     known.take(carriages(known))
+    return _StoppedJoints(joined, guided)
 
-    # what is left: parts that lie on one other, or that nothing ties
+
+def _take_what_is_left(known: Known, guided: Sequence[StoppedJoint]) -> None:
+    """Take what is left: parts that lie on one other, or that nothing ties."""
     known.take(screwed_flat(known))
     known.take(lone_screws(known))
     known.take(lying_on_one(known, guided))
     known.take(sunk_in_siblings(known))
     known.take(far_joints(known))
     known.take(tied_to_nothing(known))
-
-    # what would stop slides that contacts allow, by how sure it is
-    body = known.body
-    replacing = [
-        each for each in joined if each.replaces_slide and len({body[part] for part in each.inference.parts}) > 1
-    ]
-    stops = [[each.inference for each in replacing if each.stop is level] for level in Stop]
-    return Inferred(known.found, stops, frozenset(fastening))
