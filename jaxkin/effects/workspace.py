@@ -18,14 +18,14 @@ from jaxkin._arguments import by_name, check_mechanism, numbers, several
 from jaxkin._names import listed, nearest
 from jaxkin._traced import traced
 from jaxkin.effects.determined_drive import check_determined
-from jaxkin.effects.grid_flood import flood
+from jaxkin.effects.grid_flood import Flooded, flood
 from jaxkin.effects.pose_plot import save_rows
 from jaxkin.effects.workspace_plot import WorkspaceMap, draw_workspace
 from jaxkin.linkage.coordinates import coordinates
 from jaxkin.linkage.first_order import Columns
 from jaxkin.linkage.joint_motion import part_transforms
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.mechanism.drive_plan import plan_drive
+from jaxkin.mechanism.drive_plan import DrivePlan, plan_drive
 from jaxkin.mechanism.joint_limits import beyond_as_assembled, with_limited
 from jaxkin.mechanism.motion import Motion, as_point
 from jaxkin.solve.options import SolverOptions, options_with
@@ -155,26 +155,14 @@ def workspace(
     keys = (*grid, *several(hold, "hold", "coordinates"))
     driven = coordinates(linkage, keys)
     check_determined(mechanism, driven, "a workspace", "jk.workspace({}, ...)", "hold")
-    plan = plan_drive(linkage, keys)
     where = as_point(point)
 
     first, second = grid.values()
     shape = len(first), len(second)
-    nodes = np.stack([np.ravel(each) for each in np.meshgrid(first, second, indexing="ij")])
-    nodes = np.concatenate([nodes, np.zeros((len(keys) - 2, nodes.shape[1]))]).astype(dtypes.canonicalize_dtype(float))
+    plan, nodes = plan_drive(linkage, keys), _nodes(first, second, len(keys) - 2)
     max_residual = float(options.tolerance or default_tolerance(nodes.dtype))
     found = flood(plan.loop_groups, options, nodes, shape, max_residual)
-    layout = _Layout(
-        plan.freedoms,
-        tuple(driven.values()),
-        tuple(loop_group.system for loop_group in plan.loop_groups),
-        tuple(loop_group.columns for loop_group in plan.loop_groups),
-        tuple(loop_group.inputs for loop_group in plan.loop_groups),
-        mechanism.parts.index(part),
-    )
-    poses = tuple(Poses(state, jnp.asarray(found.status), jnp.asarray(found.residual)) for state in found.states)
-    joints = tuple(loop_group.joints for loop_group in plan.loop_groups)
-    rows, points, rates = _read(layout, linkage, joints, jnp.asarray(nodes), poses, where)
+    rows, points, rates = _evaluate_nodes(linkage, plan, found, nodes, mechanism.parts.index(part), where)
     inputs = {name: jnp.asarray(row) for name, row in zip(driven, nodes, strict=True)}
     motion = Motion(mechanism, inputs, rows, jnp.asarray(found.status), jnp.asarray(found.residual), options=options)
     status = _within_limits(np.asarray(with_limited(motion).status).reshape(shape), nodes[:2])
@@ -189,6 +177,15 @@ def workspace(
         np.where(closed[:, None, None], rates, np.nan).reshape(*shape, 3, 2),
         motion,
     )
+
+
+def _nodes(
+    first: Float[np.ndarray, " first"], second: Float[np.ndarray, " second"], held: int
+) -> Float[np.ndarray, "driven nodes"]:
+    """List the inputs of all nodes of a grid, the second input fastest; then zeros for so many `held` coordinates."""
+    nodes = np.stack([np.ravel(each) for each in np.meshgrid(first, second, indexing="ij")])
+    nodes = np.concatenate([nodes, np.zeros((held, nodes.shape[1]))])
+    return nodes.astype(dtypes.canonicalize_dtype(float))
 
 
 def _within_limits(
@@ -221,6 +218,30 @@ def _grid(ranges: Mapping[str, Sequence[float] | np.ndarray]) -> dict[str, Float
     return found
 
 
+EvaluatedPoses = tuple[tuple[Float[Array, "poses _"], ...], Float[Array, "poses 3"], Float[Array, "poses 3 2"]]
+"""Displacements of all joints, where a point is, and its derivatives by the first two inputs."""
+
+
+def _evaluate_nodes(
+    linkage: Linkage, plan: DrivePlan, found: Flooded, nodes: Float[np.ndarray, "driven nodes"], part: int, point: Array
+) -> EvaluatedPoses:
+    """Compute displacements, points and their derivatives from the states of the nodes, by one program.
+
+    `part` is the number of the part that the point, given in the assembled pose, belongs to.
+    """
+    layout = _Layout(
+        plan.freedoms,
+        tuple(plan.driven.values()),
+        tuple(loop_group.system for loop_group in plan.loop_groups),
+        tuple(loop_group.columns for loop_group in plan.loop_groups),
+        tuple(loop_group.inputs for loop_group in plan.loop_groups),
+        part,
+    )
+    poses = tuple(Poses(state, jnp.asarray(found.status), jnp.asarray(found.residual)) for state in found.states)
+    joints = tuple(loop_group.joints for loop_group in plan.loop_groups)
+    return _evaluate(layout, linkage, joints, jnp.asarray(nodes), poses, point)
+
+
 class _Layout(NamedTuple):
     """What goes where in a pose (static)."""
 
@@ -233,14 +254,14 @@ class _Layout(NamedTuple):
 
 
 @partial(jax.jit, static_argnums=0)
-def _read(
+def _evaluate(
     layout: _Layout,
     linkage: Linkage,
     joints: tuple[Joints, ...],
     inputs: Float[Array, "driven poses"],
     poses: tuple[Poses, ...],
     point: Float[Array, "3"],
-) -> tuple[tuple[Float[Array, "poses _"], ...], Float[Array, "poses 3"], Float[Array, "poses 3 2"]]:
+) -> EvaluatedPoses:
     """Compute the displacements of all joints, where a point is, and its derivatives by the first two inputs."""
 
     def placed(inputs: Float[Array, "driven poses"]):
