@@ -28,12 +28,17 @@ from jaxkin.geometry.movements import is_length
 from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.coordinates import coordinate, coordinates
 from jaxkin.linkage.host_closure import ClosedLoops
+from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.joint_limits import rounding
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mobility.loop_freedoms import loop_freedoms
+from jaxkin.topology.structure import LoopGroup
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
+
+Ranges = Mapping[JointCoordinate, tuple[float, float]]
+"""The lowest and the highest displacement of coordinates, from the assembled pose."""
 
 
 @dataclass(frozen=True)
@@ -131,31 +136,42 @@ def limits(
     group = next((each for each in linkage.structure.loop_groups if place[0] in each.joints), None)
     if group is None:
         return _limits_of_joint(mechanism, name, place, given)
+    curve = _curve(linkage, group, list(driven.values()))
+    lower, upper = _ends(mechanism, curve, list(driven.values()), given)
+    return _limits_in_loops(mechanism, name, place, curve, lower, upper)
+
+
+def _curve(linkage: Linkage, group: LoopGroup, driven: Sequence[JointCoordinate]) -> Curve:
+    """Make the curve along which the first of `driven` moves the loops of a group, with the others at rest."""
     loops = ClosedLoops(linkage.joints, linkage.structure, group, linkage.couplings)
     freedoms = loop_freedoms(linkage)[linkage.structure.loop_groups.index(group)]
-    held = [loops.columns.index(each) for each in list(driven.values())[1:] if each in loops.columns]
-    idle = len(freedoms.motions) - 1 - len(held)
-    curve = Curve(loops, loops.columns.index(place), held, idle)
-    own = [
-        CoordinateRange(k, low / loops.units[k], high / loops.units[k])
-        for k, (low, high) in (
-            (loops.columns.index(each), ends) for each, ends in given.items() if each in loops.columns
-        )
-    ]
+    drive, *held = (loops.columns.index(each) for each in driven if each in loops.columns)
+    return Curve(loops, drive, held, idle=len(freedoms.motions) - 1 - len(held))
+
+
+def _ends(
+    mechanism: Mechanism, curve: Curve, driven: Sequence[JointCoordinate], ranges: Ranges
+) -> tuple[FoundLimit, FoundLimit]:
+    """Follow the drive, the first of `driven`, to its lower and its upper limit.
+
+    They are one where the motion repeats. ValueError where the assembled pose is singular.
+    """
+    loops = curve.loops
+    inside = {loops.columns.index(each): ends for each, ends in ranges.items() if each in loops.columns}
+    scaled = [CoordinateRange(k, low / loops.units[k], high / loops.units[k]) for k, (low, high) in inside.items()]
+    turns, features = not _is_length(mechanism, driven[0]), PoseFeatures(loops, curve.idle)
     found: list[FoundLimit] = []
     for direction in (1.0, -1.0):
         begun = curve.begin(direction)
         if begun is None:
-            raise ValueError(why_singular(mechanism, curve, list(driven.values())))
-        features = PoseFeatures(loops, idle)
-        found.append(find_limit(curve, begun, direction, own, not _is_length(mechanism, place), features))
+            raise ValueError(why_singular(mechanism, curve, driven))
+        found.append(find_limit(curve, begun, direction, scaled, turns, features))
         if found[-1].repeats:
             break
-    upper, lower = found[0], found[-1]
-    return _limits_in_loops(mechanism, name, place, curve, lower, upper)
+    return found[-1], found[0]
 
 
-def _ranges(mechanism: Mechanism, given: Mapping[str, Sequence[float]]) -> dict[JointCoordinate, tuple[float, float]]:
+def _ranges(mechanism: Mechanism, given: Mapping[str, Sequence[float]]) -> Ranges:
     """List the ranges of coordinates: those of joints, replaced by those given.
 
     Raises ValueError where they exclude the assembled pose.
@@ -192,9 +208,7 @@ def _is_length(mechanism: Mechanism, place: JointCoordinate) -> bool:
     return is_length(mechanism.all_joints[joint].coordinates[k])
 
 
-def _limits_of_joint(
-    mechanism: Mechanism, name: str, place: JointCoordinate, given: Mapping[JointCoordinate, tuple[float, float]]
-) -> Limits:
+def _limits_of_joint(mechanism: Mechanism, name: str, place: JointCoordinate, given: Ranges) -> Limits:
     """Make the limits of a drive that is in no loop: the range of its joint."""
     joint, k = place
     ends = []
