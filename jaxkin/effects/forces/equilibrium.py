@@ -9,7 +9,7 @@ from typing import Any
 
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Bool, Float, Int
 
 from jaxkin._arguments import by_name, check_mechanism, numbers
 from jaxkin._runs import runs
@@ -152,6 +152,48 @@ def equilibrium(
                 f"loads of an equilibrium are the same in all poses, and {type(load).__name__} has {', '.join(rows)} "
                 "with one row a pose: give single numbers, or find where jk.drive_forces vanishes along a sweep"
             )
+    key, inputs, held = _range_and_held(drive)
+    name = next(iter(coordinates(mechanism.linkage, [key])))
+
+    def posed(values: Inputs) -> Motion:
+        return mechanism.sweep({key: values, **{each: np.full(len(values), *at) for each, at in held.items()}})
+
+    def force(values: Inputs) -> Float[np.ndarray, " poses"]:
+        # all of one length, so that they share a compiled program
+        padded = np.pad(values, (0, max(0, len(inputs) - len(values))), mode="edge")
+        found = drive_forces(posed(padded), masses, gravity=gravity, applied=applied)
+        return np.asarray(found.forces[name], float)[: len(values)]
+
+    forces, rounding = force(inputs), float(jnp.finfo(float).eps)
+    weight = _weight(mechanism, name, masses, gravity)
+    least = NO_FORCE * rounding * weight
+    forces = np.where(np.abs(forces) <= least, 0.0, forces)
+    values, indifferent = _vanishing(force, inputs, forces, least, max(WITHIN, rounding))
+    # of a central difference: the cube root of rounding
+    step = rounding ** (1 / 3) * np.ptp(inputs)
+    beside = force(np.concatenate([values - step, values + step])) if len(values) else np.zeros(0)
+    growth = beside[len(values) :] - beside[: len(values)]
+    loads: dict[str, Inputs] = {}
+    if _has_others(mechanism, len(drive)) and (len(values) or len(indifferent)):
+        poses = posed(np.concatenate([values, inputs[indifferent].ravel()]))
+        most = HELD * max(float(np.nanmax(np.abs(forces))), weight)
+        loads = _out_of_balance(reactions(poses, masses, gravity=gravity, applied=applied), most)
+    still = ~np.any([np.zeros(len(values), bool), *(load[: len(values)] != 0 for load in loads.values())], axis=0)
+    return Equilibrium(
+        name,
+        values,
+        (growth > 0) & still,
+        (growth < 0) & still,
+        inputs[indifferent],
+        posed(values),
+        {each: float(load.max()) for each, load in loads.items()},
+        inputs,
+        forces,
+    )
+
+
+def _range_and_held(drive: Mapping[Any, Any]) -> tuple[str, Inputs, dict[str, Inputs]]:
+    """Check a drive: the coordinate that has a range, this range, rising, and the one displacement of each other."""
     given = {key: np.unique(numbers(some, f"the range of {key!r}").ravel()) for key, some in drive.items()}
     if not given:
         raise ValueError("an equilibrium is found along a driven coordinate: give {'A': np.linspace(0, 2 * np.pi, 73)}")
@@ -164,55 +206,27 @@ def equilibrium(
     inputs = given.pop(key)
     if len(inputs) < 2 or not np.isfinite(inputs).all():
         raise ValueError(f"the range of {key!r} must be two displacements or more, as np.linspace(0, 2 * np.pi, 73)")
+    return key, inputs, given
 
-    name = next(iter(coordinates(mechanism.linkage, [key])))
 
-    def posed(values: Inputs) -> Motion:
-        return mechanism.sweep({key: values, **{each: np.full(len(values), *at) for each, at in given.items()}})
+def _vanishing(
+    force: Callable[[Inputs], Inputs], inputs: Inputs, forces: Inputs, least: float, within: float
+) -> tuple[Inputs, Int[np.ndarray, "intervals 2"]]:
+    """Find where a force vanishes along a range: in single displacements, rising, and throughout which intervals.
 
-    def force(values: Inputs) -> Float[np.ndarray, " poses"]:
-        # all of one length, so that they share a compiled program
-        padded = np.pad(values, (0, max(0, len(inputs) - len(values))), mode="edge")
-        found = drive_forces(posed(padded), masses, gravity=gravity, applied=applied)
-        return np.asarray(found.forces[name], float)[: len(values)]
-
-    forces = force(inputs)
-    eps = float(jnp.finfo(float).eps)
-    least = NO_FORCE * eps * _weight(mechanism, name, masses, gravity)
-    none = np.abs(forces) <= least
+    `forces` are those of the range, zero where they are at most `least`. Displacements are refined to `within` of the
+    range. Intervals are told by the numbers of their first and last pose.
+    """
+    none = forces == 0.0
     between = none[:-1] & none[1:]  # two equilibria may be neighbours, with forces between them
     if between.any():
         between[between] = np.abs(force(0.5 * (inputs[:-1] + inputs[1:])[between])) <= least
-    indifferent = runs(between)  # the first and the last pose of each, as gaps lie between poses
     at_zero = np.flatnonzero(none & ~np.append(between, False) & ~np.append(False, between))
-    forces = np.where(none, 0.0, forces)
     changing = np.flatnonzero(forces[:-1] * forces[1:] < 0)
     ends = inputs[changing], inputs[changing + 1], forces[changing], forces[changing + 1]
-    refined, vanishes = _refined(force, *ends, max(WITHIN, eps) * np.ptp(inputs))
-    values = np.concatenate([inputs[at_zero], refined[vanishes]])
-    # of a central difference: the cube root of rounding
-    step = eps ** (1 / 3) * np.ptp(inputs)
-    beside = force(np.concatenate([values - step, values + step])) if len(values) else np.zeros(0)
-    growth = beside[len(values) :] - beside[: len(values)]
-    order = np.argsort(values)
-    values, growth = values[order], growth[order]
-    held: dict[str, Inputs] = {}
-    if _has_others(mechanism, len(drive)) and (len(values) or len(indifferent)):
-        poses = posed(np.concatenate([values, inputs[indifferent].ravel()]))
-        most = HELD * max(float(np.nanmax(np.abs(forces))), _weight(mechanism, name, masses, gravity))
-        held = _out_of_balance(reactions(poses, masses, gravity=gravity, applied=applied), most)
-    still = ~np.any([np.zeros(len(values), bool), *(load[: len(values)] != 0 for load in held.values())], axis=0)
-    return Equilibrium(
-        name,
-        values,
-        (growth > 0) & still,
-        (growth < 0) & still,
-        inputs[indifferent],
-        posed(values),
-        {each: float(load.max()) for each, load in held.items()},
-        inputs,
-        forces,
-    )
+    refined, vanishes = _refined(force, *ends, within * np.ptp(inputs))
+    # runs of gaps between poses: the index behind the last gap is that of the last pose
+    return np.sort(np.concatenate([inputs[at_zero], refined[vanishes]])), runs(between)
 
 
 def _has_others(mechanism: Mechanism, driven: int) -> bool:
