@@ -17,7 +17,7 @@ from jaxkin._arguments import check_motion
 from jaxkin._files import save_figure
 from jaxkin._names import listed, nearest
 from jaxkin._traced import traced
-from jaxkin.effects.curve_range import Curve, CurveRange, Evaluate, range_of
+from jaxkin.effects.curve_range import CurvePoints, CurveRange, Evaluate, range_of
 from jaxkin.effects.cusps_crossings import Crossing, Cusp, Place, crossings_of, cusps_of
 from jaxkin.effects.pose_plot import save_rows
 from jaxkin.effects.rates import accelerations, velocities
@@ -141,14 +141,14 @@ def coupler_curve(motion: Motion, part: str, point: Sequence[float | int] | np.n
 def _evaluation(motion: Motion, drive: str, part: str, at: Place) -> Evaluate:
     """Make the function that computes the curve at any inputs."""
 
-    def evaluate(inputs: Float[np.ndarray, " inputs"]) -> Curve:
+    def evaluate(inputs: Float[np.ndarray, " inputs"]) -> CurvePoints:
         # all of few lengths, so that they share compiled programs
         padded = np.pad(inputs, (0, 2 ** max(5, (len(inputs) - 1).bit_length()) - len(inputs)), mode="edge")
         swept = motion.mechanism.sweep({drive: padded}, options=motion.options)
         rates = velocities(swept, {drive: 1.0}), accelerations(swept, {drive: 1.0})
         rows = (swept.points(part, at), *(each.points(part, at) for each in rates))
         point, slope, bend = (np.asarray(each, float)[: len(inputs)] for each in rows)
-        return Curve(point, slope, bend, np.asarray(swept.closed)[: len(inputs)])
+        return CurvePoints(point, slope, bend, np.asarray(swept.closed)[: len(inputs)])
 
     return evaluate
 

@@ -21,16 +21,19 @@ ONE_INPUT = 1e-6
 far less than two cusps or crossings that steps can tell apart."""
 
 
-class Curve(NamedTuple):
-    """Points of a curve and their derivatives by the input; and where there are some."""
+class CurvePoints(NamedTuple):
+    """Points of the path of a point, with their derivatives by the input."""
 
     point: Float[np.ndarray, "inputs 3"]
     slope: Float[np.ndarray, "inputs 3"]
+    """First derivative."""
     bend: Float[np.ndarray, "inputs 3"]
+    """Second derivative."""
     closed: Bool[np.ndarray, " inputs"]
+    """At which inputs the loops close, and there are points."""
 
 
-Evaluate = Callable[[Float[np.ndarray, " inputs"]], Curve]
+Evaluate = Callable[[Float[np.ndarray, " inputs"]], CurvePoints]
 
 
 class CurveRange(NamedTuple):

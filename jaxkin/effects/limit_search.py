@@ -10,7 +10,7 @@ import numpy as np
 
 from jaxkin._names import listed
 from jaxkin.effects.mode_search import SAME_POSE, PoseFeatures
-from jaxkin.effects.motion_curve import FIRST_STEP, Curve, CurvePoint
+from jaxkin.effects.motion_curve import FIRST_STEP, CurvePose, MotionCurve
 from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.trig import TURN
@@ -60,7 +60,7 @@ class FoundLimit(NamedTuple):
     """Where the range of a drive ends on one side."""
 
     kind: LimitKind
-    here: CurvePoint
+    here: CurvePose
     """The pose there; for `LimitKind.NONE` the last one that was reached."""
     column: int | None
     """The column whose range ends; None for other kinds."""
@@ -69,8 +69,8 @@ class FoundLimit(NamedTuple):
 
 
 def find_limit(
-    curve: Curve,
-    begun: CurvePoint,
+    curve: MotionCurve,
+    begun: CurvePose,
     direction: float,
     ranges: Sequence[CoordinateRange],
     turns: bool,
@@ -106,13 +106,15 @@ class _Event(NamedTuple):
     """A function of the pose whose change from positive to negative ends the motion, or completes a full turn."""
 
     kind: LimitKind
-    value: Callable[[CurvePoint], float]
+    value: Callable[[CurvePose], float]
     column: int | None = None
-    rate: Callable[[CurvePoint], float] | None = None
+    rate: Callable[[CurvePose], float] | None = None
     """Derivative of the value by the arc length; None where the value is not looked at between the ends of a step."""
 
 
-def _events(curve: Curve, direction: float, ranges: Sequence[CoordinateRange], number: int | None) -> list[_Event]:
+def _events(
+    curve: MotionCurve, direction: float, ranges: Sequence[CoordinateRange], number: int | None
+) -> list[_Event]:
     """List what ends the motion; `number` is that of the next full turn of the drive, None for a slide."""
     drive = curve.drive
     events = [_Event(LimitKind.LOCKS, lambda here: direction * float(here.tangent[drive]))]
@@ -132,7 +134,7 @@ def _events(curve: Curve, direction: float, ranges: Sequence[CoordinateRange], n
     return events
 
 
-def _crossed(curve: Curve, here: CurvePoint, there: CurvePoint, length: float, event: _Event) -> float | None:
+def _crossed(curve: MotionCurve, here: CurvePose, there: CurvePose, length: float, event: _Event) -> float | None:
     """Find an arc length within a step at which the value of an event is negative; None where it is nowhere.
 
     A coordinate that turns back within the step may be beyond its range only between the ends of the step: its extremum
@@ -146,13 +148,13 @@ def _crossed(curve: Curve, here: CurvePoint, there: CurvePoint, length: float, e
     return s if event.value(extremum) < 0 else None
 
 
-def _is_home(curve: Curve, at: CurvePoint, features: PoseFeatures) -> bool:
+def _is_home(curve: MotionCurve, at: CurvePose, features: PoseFeatures) -> bool:
     """Tell whether all parts are in their assembled poses again, but for idle freedoms."""
     home, there = features.of(np.stack([np.zeros(len(at.q)), at.q]), curve.free)
     return bool(np.abs(home - there).max(initial=0.0) <= SAME_POSE)
 
 
-def why_locked(joints: Mapping[int, Joint], curve: Curve, here: CurvePoint) -> tuple[tuple[str, ...], str]:
+def why_locked(joints: Mapping[int, Joint], curve: MotionCurve, here: CurvePose) -> tuple[tuple[str, ...], str]:
     """Name the joints that still move where the drive locks, and say how they stand.
 
     `joints` are those of the loops, by their numbers.
@@ -187,7 +189,7 @@ def _and(names: Sequence[str]) -> str:
     return listed(names) if len(names) > 8 else " and ".join([", ".join(names[:-1]), names[-1]] if names[1:] else names)
 
 
-def why_singular(mechanism: Mechanism, curve: Curve, driven: Sequence[JointCoordinate]) -> str:
+def why_singular(mechanism: Mechanism, curve: MotionCurve, driven: Sequence[JointCoordinate]) -> str:
     """Say why no motion of the drive, the first of `driven`, begins at the assembled pose, and what to do.
 
     At a limit of the drive another coordinate still moves: the fastest one that can be driven in its place, those of
@@ -198,7 +200,7 @@ def why_singular(mechanism: Mechanism, curve: Curve, driven: Sequence[JointCoord
     choices = []
     for column, place in enumerate(loops.columns):
         drives = [place, *driven[1:]]
-        begun = None if place in driven else Curve(loops, column, curve.held, curve.idle).begin(1.0)
+        begun = None if place in driven else MotionCurve(loops, column, curve.held, curve.idle).begin(1.0)
         if begun is None or infeasible_drive(linkage, drives) is not None or undriven_freedoms(linkage, drives):
             continue
         choices.append((mechanism.all_joints[place[0]].freedoms > 1, -abs(begun.tangent[column]), column))

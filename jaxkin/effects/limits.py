@@ -1,8 +1,8 @@
 """The reachable range of a drive about the assembled pose: where the mechanism locks, or a joint range ends.
 
-`limits` checks what is asked. `limit_search.find_limit` follows the drive to either side, along a `motion_curve.Curve`
-of closed poses, until a function of the pose changes its sign: the rate of the drive, or the distance of a coordinate
-from an end of its range. The rest puts into words what was found.
+`limits` checks what is asked. `limit_search.find_limit` follows the drive to either side, along a `MotionCurve` of
+closed poses, until a function of the pose changes its sign: the rate of the drive, or the distance of a coordinate from
+an end of its range. The rest puts into words what was found.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from jaxkin.effects.determined_drive import check_determined
 from jaxkin.effects.limit_search import CoordinateRange, FoundLimit, LimitKind, find_limit, why_locked, why_singular
 from jaxkin.effects.mode_plot import draw_modes
 from jaxkin.effects.mode_search import PoseFeatures
-from jaxkin.effects.motion_curve import Curve
+from jaxkin.effects.motion_curve import MotionCurve
 from jaxkin.effects.pose_plot import save_displacements
 from jaxkin.geometry.movements import is_length
 from jaxkin.joints.joint import JointCoordinate
@@ -141,16 +141,16 @@ def limits(
     return _limits_in_loops(mechanism, name, place, curve, lower, upper)
 
 
-def _curve(linkage: Linkage, group: LoopGroup, driven: Sequence[JointCoordinate]) -> Curve:
+def _curve(linkage: Linkage, group: LoopGroup, driven: Sequence[JointCoordinate]) -> MotionCurve:
     """Make the curve along which the first of `driven` moves the loops of a group, with the others at rest."""
     loops = ClosedLoops(linkage.joints, linkage.structure, group, linkage.couplings)
     freedoms = loop_freedoms(linkage)[linkage.structure.loop_groups.index(group)]
     drive, *held = (loops.columns.index(each) for each in driven if each in loops.columns)
-    return Curve(loops, drive, held, idle=len(freedoms.motions) - 1 - len(held))
+    return MotionCurve(loops, drive, held, idle=len(freedoms.motions) - 1 - len(held))
 
 
 def _ends(
-    mechanism: Mechanism, curve: Curve, driven: Sequence[JointCoordinate], ranges: Ranges
+    mechanism: Mechanism, curve: MotionCurve, driven: Sequence[JointCoordinate], ranges: Ranges
 ) -> tuple[FoundLimit, FoundLimit]:
     """Follow the drive, the first of `driven`, to its lower and its upper limit.
 
@@ -227,14 +227,14 @@ def _limits_of_joint(mechanism: Mechanism, name: str, place: JointCoordinate, gi
 
 
 def _limits_in_loops(
-    mechanism: Mechanism, name: str, place: JointCoordinate, curve: Curve, lower: FoundLimit, upper: FoundLimit
+    mechanism: Mechanism, name: str, place: JointCoordinate, curve: MotionCurve, lower: FoundLimit, upper: FoundLimit
 ) -> Limits:
     """Make the limits of a drive in loops, in words and in coordinates of all joints."""
     ends = [_limit(mechanism, name, curve, end, side) for end, side in ((lower, -np.inf), (upper, np.inf))]
     return _limits(mechanism, name, place, ends[0], ends[1], upper.repeats or lower.repeats)
 
 
-def _limit(mechanism: Mechanism, name: str, curve: Curve, end: FoundLimit, side: float) -> Limit:
+def _limit(mechanism: Mechanism, name: str, curve: MotionCurve, end: FoundLimit, side: float) -> Limit:
     """Say in words what ends the range on one side, and where all joints are; `side` is -inf or inf."""
     loops, joints = curve.loops, mechanism.all_joints
     q = end.here.q * loops.units

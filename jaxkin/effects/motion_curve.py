@@ -36,7 +36,7 @@ RELATIVE = 1e-15
 """The same over the arc length: four roundings, the least that Brent's method takes."""
 
 
-class CurvePoint(NamedTuple):
+class CurvePose(NamedTuple):
     """A closed pose on the curve, with its tangent."""
 
     q: Row
@@ -48,7 +48,7 @@ class CurvePoint(NamedTuple):
     branches cross."""
 
 
-class Curve:
+class MotionCurve:
     """The closed poses of loops that have one freedom beside idle ones, with some coordinates at rest."""
 
     def __init__(self, loops: ClosedLoops, drive: int, held: Sequence[int], idle: int) -> None:
@@ -57,7 +57,7 @@ class Curve:
         self.free = [k for k in range(len(loops.columns)) if k not in self.held]
 
     def _freedoms(self, q: Row) -> tuple[Float[np.ndarray, "freedoms columns"], float]:
-        """Compute a basis of the rates that keep the loops closed, and `CurvePoint.sigma`.
+        """Compute a basis of the rates that keep the loops closed, and `CurvePose.sigma`.
 
         There are as many rates as idle freedoms and one more; where branches cross there are further ones.
         """
@@ -70,7 +70,7 @@ class Curve:
         found[:, self.free] = basis
         return found, float(values[rank - 1]) if rank else np.inf
 
-    def begin(self, direction: float, start: Row | None = None) -> CurvePoint | None:
+    def begin(self, direction: float, start: Row | None = None) -> CurvePose | None:
         """Find the tangent at a closed pose, by default the assembled one, along which the drive rises or falls.
 
         It rises where `direction` is 1, and falls where that is -1.
@@ -83,9 +83,9 @@ class Curve:
         # the motion of least norm, orthogonal to the idle ones, of which the drive has no part
         tangent = basis.T @ basis[:, self.drive]
         size = float(np.linalg.norm(tangent))
-        return None if size < 1e-6 else CurvePoint(home, direction * tangent / size, sigma)
+        return None if size < 1e-6 else CurvePose(home, direction * tangent / size, sigma)
 
-    def at(self, here: CurvePoint, s: float) -> CurvePoint | None:
+    def at(self, here: CurvePose, s: float) -> CurvePose | None:
         """Close the loops where the tangent leads after the arc length `s`; None where they do not close.
 
         The tangent there is the projection of that `here` on the rates that keep the loops closed.
@@ -96,9 +96,9 @@ class Curve:
         basis, sigma = self._freedoms(q)
         tangent = basis.T @ (basis @ here.tangent)
         size = float(np.linalg.norm(tangent))
-        return None if size < 0.5 else CurvePoint(q, tangent / size, sigma)
+        return None if size < 0.5 else CurvePose(q, tangent / size, sigma)
 
-    def step(self, here: CurvePoint, length: float) -> tuple[CurvePoint, float] | None:
+    def step(self, here: CurvePose, length: float) -> tuple[CurvePose, float] | None:
         """Take a step of at most this length, shortened until it stays on the curve; None where that fails.
 
         Returns the pose and the length of the step.
@@ -112,7 +112,7 @@ class Curve:
             length *= 0.5
         return None
 
-    def next_length(self, before: CurvePoint, here: CurvePoint, length: float) -> float:
+    def next_length(self, before: CurvePose, here: CurvePose, length: float) -> float:
         """Choose the length to try after a step of `length`: at most half of what is left to where branches cross.
 
         Beside such a pose the curve may turn back sharply, which a long step would not see.
@@ -122,7 +122,7 @@ class Curve:
             longest = min(longest, max(0.5 * length * here.sigma / fall, CROSSING))
         return min(2.0 * length, longest)
 
-    def locate(self, here: CurvePoint, length: float, event: Callable[[CurvePoint], float]) -> tuple[float, CurvePoint]:
+    def locate(self, here: CurvePose, length: float, event: Callable[[CurvePose], float]) -> tuple[float, CurvePose]:
         """Find the arc length within a step at which a function of the pose is zero, and the pose there."""
         from scipy.optimize import root_scalar
 

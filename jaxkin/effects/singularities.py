@@ -13,7 +13,7 @@ from jaxtyping import Float
 
 from jaxkin.effects.limit_search import CoordinateRange, LimitKind, find_limit, why_locked
 from jaxkin.effects.mode_search import PoseFeatures
-from jaxkin.effects.motion_curve import Curve
+from jaxkin.effects.motion_curve import MotionCurve
 from jaxkin.effects.pose_plot import save_rows
 from jaxkin.effects.workspace import Workspace, drawn
 from jaxkin.effects.workspace_plot import draw_workspace
@@ -87,7 +87,7 @@ def singularities(workspace: Workspace) -> Singularities:
     values, points, reasons, edges = [], [], [], list(_edges(workspace))
     for edge in edges:
         drive, q = columns[edge.axis], every[edge.node]
-        curve = Curve(loops, drive, [column for column in columns if column != drive], idle)
+        curve = MotionCurve(loops, drive, [column for column in columns if column != drive], idle)
         begun = curve.begin(edge.direction, q)
         if begun is None:
             continue

@@ -9,7 +9,7 @@ import pytest
 from scipy.optimize import fsolve
 
 import jaxkin as jk
-from jaxkin.effects.curve_range import Curve, range_of
+from jaxkin.effects.curve_range import CurvePoints, range_of
 from jaxkin.effects.cusps_crossings import crossings_of, cusps_of
 from reference.mechanisms import planar_fourbar
 from reference.planar import fourbar
@@ -110,7 +110,7 @@ def test_a_curve_may_begin_anew_after_two_turns():
         slopes = 0.5j * e + 1j * e**2
         bends = -0.25 * e - e**2
         point, slope, bend = (np.stack([each.real, each.imag, 0 * u], axis=-1) for each in (points, slopes, bends))
-        return Curve(point, slope, bend, np.ones(len(u), bool))
+        return CurvePoints(point, slope, bend, np.ones(len(u), bool))
 
     inputs = np.linspace(0.0, 6 * np.pi, 100)  # steps that no turn ends at
     curve = range_of(limacon, inputs, limacon(inputs).point, 3.0)
