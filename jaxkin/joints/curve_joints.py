@@ -19,7 +19,7 @@ from jaxkin.joints.evidence import BY_HAND, Evidence, EvidenceKind
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.limits import GivenLimits, with_limits
-from jaxkin.joints.profile_plane import Contact, Plane, contact_at, profile_plane
+from jaxkin.joints.profile_plane import ProfilePlane, ProfilePoint, profile_plane, profile_point
 from jaxkin.joints.profiles import Placed, check_simple, nearest_to, placed_profile, tangent_to, touching
 
 Profile = Any
@@ -58,7 +58,7 @@ def point_on_curve(
     """
     plane = profile_plane(name, point, axis, direction)
     curve = placed_profile(name, "profile", profile, np.zeros(3), closed)
-    contact = contact_at(curve, nearest_to(curve, plane.local(name, "point2", point2)))
+    contact = profile_point(curve, nearest_to(curve, plane.local(name, "point2", point2)))
     return _follows(name, (part1, part2), JointKind.POINT_ON_CURVE, plane, curve, contact, 0.0, point2, limits)
 
 
@@ -113,8 +113,8 @@ def cam(
                 f"joint {name!r}: no tangent of the profile is parallel to the face, "
                 f"direction2={np.asarray(direction2).tolist()}"
             )
-        return _flat(name, (part1, part2), plane, curve, contact_at(curve, found), at, limits)
-    contact, size = contact_at(curve, nearest_to(curve, at)), 0.0
+        return _flat(name, (part1, part2), plane, curve, profile_point(curve, found), at, limits)
+    contact, size = profile_point(curve, nearest_to(curve, at)), 0.0
     if radius is not None:
         size = positive_radius(name, radius, "a roller")
         size = size if contact.away(at)[1] >= 0 else -size
@@ -167,7 +167,7 @@ def curve_on_curve(
             + (f"near contact={np.asarray(contact).tolist()}" if contact is not None else "where they are nearest")
             + "; move a part to where they touch, or give another contact=(x, y, z) near that place"
         )
-    one, other = (contact_at(curve, q) for curve, q in zip(curves, found, strict=True))
+    one, other = (profile_point(curve, q) for curve, q in zip(curves, found, strict=True))
     misfit = float(one.away(other.point)[1])
     size = min(curve.size for curve in curves)
     touches = abs(misfit) <= TOUCHES * size
@@ -200,9 +200,9 @@ def _follows(
     name: str,
     parts: tuple[str, str],
     kind: JointKind,
-    plane: Plane,
+    plane: ProfilePlane,
     curve: Placed,
-    contact: Contact,
+    contact: ProfilePoint,
     height: float,
     point2: Triple,
     limits: GivenLimits | None,
@@ -225,9 +225,9 @@ def _follows(
 def _flat(
     name: str,
     parts: tuple[str, str],
-    plane: Plane,
+    plane: ProfilePlane,
     curve: Placed,
-    contact: Contact,
+    contact: ProfilePoint,
     face: Float[np.ndarray, "2"],
     limits: GivenLimits | None,
 ) -> Joint:

@@ -16,7 +16,7 @@ _PERPENDICULAR = 1e-6
 """Largest cosine between the axis of the plane and a direction that is to lie in the plane, as of other joints."""
 
 
-class Contact(NamedTuple):
+class ProfilePoint(NamedTuple):
     """A point of a profile in coordinates of the plane."""
 
     q: float
@@ -35,7 +35,7 @@ class Contact(NamedTuple):
         return self.point + height * np.array([-self.tangent[1], self.tangent[0]])
 
 
-class Plane(NamedTuple):
+class ProfilePlane(NamedTuple):
     """The plane of a profile."""
 
     pose: Pose
@@ -57,7 +57,7 @@ class Plane(NamedTuple):
         flat = self.pose[:3, :2].T @ along
         return flat / np.linalg.norm(flat)
 
-    def frame(self, contact: Contact, height: float = 0.0) -> Pose:
+    def frame(self, contact: ProfilePoint, height: float = 0.0) -> Pose:
         """Make the frame at a height beside a contact, with x along its tangent."""
         found = np.eye(4)
         found[:2, 3] = contact.beside(height)
@@ -66,7 +66,7 @@ class Plane(NamedTuple):
         return self.pose @ found
 
 
-def profile_plane(name: str, point: Triple, axis: Triple, direction: Triple | None, suffix: str = "") -> Plane:
+def profile_plane(name: str, point: Triple, axis: Triple, direction: Triple | None, suffix: str = "") -> ProfilePlane:
     """Make the plane of a profile; `suffix` is that of the names of its arguments. ValueError for traced numbers."""
     if traced(point, axis, direction):
         raise ValueError(
@@ -75,12 +75,12 @@ def profile_plane(name: str, point: Triple, axis: Triple, direction: Triple | No
         )
     pose = np.asarray(axis_frame(name, point, axis, point_label=f"point{suffix}"))
     if direction is None:
-        return Plane(pose)
-    x = Plane(pose).direction(name, f"direction{suffix}", direction)
-    return Plane(frame(pose[:3, 3], pose[:3, 2], pose[:3, :2] @ x))
+        return ProfilePlane(pose)
+    x = ProfilePlane(pose).direction(name, f"direction{suffix}", direction)
+    return ProfilePlane(frame(pose[:3, 3], pose[:3, 2], pose[:3, :2] @ x))
 
 
-def contact_at(curve: Placed, q: float) -> Contact:
+def profile_point(curve: Placed, q: float) -> ProfilePoint:
     """Find the point and the tangent of a profile at a parameter."""
     at = curve.spline.at(np.array(q))
-    return Contact(q, np.array([at.x, at.y], float), np.array([at.cos, at.sin], float))
+    return ProfilePoint(q, np.array([at.x, at.y], float), np.array([at.cos, at.sin], float))
