@@ -20,7 +20,7 @@ from jaxkin.assembly.proposals import Proposal, proposals
 from jaxkin.assembly.to_mechanism import Said, check_said, from_words
 from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.contacts.detect import find_contacts
-from jaxkin.contacts.tolerance import Tolerance
+from jaxkin.contacts.tolerance import ContactTolerance
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.units import METRES, unit_name
 from jaxkin.joints.joint import Joint, check_joints
@@ -28,7 +28,7 @@ from jaxkin.joints.joint import Joint, check_joints
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
-_DEFAULT_TOLERANCES = (None, Tolerance.angle, Tolerance.fit)
+_DEFAULT_TOLERANCES = (None, ContactTolerance.angle, ContactTolerance.fit)
 """Those of `Assembly.contacts`."""
 
 
@@ -55,8 +55,8 @@ class Assembly:
         self,
         *,
         length: float | None = None,
-        angle: float = Tolerance.angle,
-        fit: float = Tolerance.fit,
+        angle: float = ContactTolerance.angle,
+        fit: float = ContactTolerance.fit,
         progress: Callable[[int, int], None] | None = None,
     ) -> Contacts:
         """Find the contacts between the parts, and what is nearly one; found once for each choice of tolerances.

@@ -26,7 +26,7 @@ from jaxkin.contacts.tolerance import (
     NEAR,
     NEAR_SLOT,
     USUAL_LENGTH,
-    Tolerance,
+    ContactTolerance,
     default_length,
     outline_length,
     reach,
@@ -43,8 +43,8 @@ KINDS = ("plane", "cylinder", "cone", "sphere")
 def find_contacts(
     parts: tuple[Part, ...],
     length: float | None = None,
-    angle: float = Tolerance.angle,
-    fit: float = Tolerance.fit,
+    angle: float = ContactTolerance.angle,
+    fit: float = ContactTolerance.fit,
     progress: Callable[[int, int], None] | None = None,
 ) -> Contacts:
     """Find all contacts between the parts in their assembled pose.
@@ -65,7 +65,7 @@ def find_contacts(
     default, outlines = default_length(parts), outline_length(parts)
     if length is None and default > USUAL_LENGTH * size(parts):
         notes.append(_rounded(parts, default))
-    tolerance = Tolerance(default if length is None else length, outlines, angle, fit)
+    tolerance = ContactTolerance(default if length is None else length, outlines, angle, fit)
     margin = max(NEAR * tolerance.length, outlines)
     parts = tuple(part for part in parts if part.faces)
     boxes = [np.stack([face_box(face) for face in part.faces]) for part in parts]
@@ -124,7 +124,10 @@ def _worth_telling(near_misses: list[NearMiss], contacts: list[Contact]) -> list
 
 
 def _in_slots(
-    parts: tuple[Part, Part], boxes: tuple[Boxes, Boxes], tol: Tolerance, found: Sequence[Contact | NearMiss | None]
+    parts: tuple[Part, Part],
+    boxes: tuple[Boxes, Boxes],
+    tol: ContactTolerance,
+    found: Sequence[Contact | NearMiss | None],
 ) -> list[NearMiss]:
     """Find the near misses, beside those that were `found`, of pins of the first part in slots of the second one."""
     known = [{*zip(result.parts, result.faces, strict=True)} for result in found if result]
@@ -153,7 +156,7 @@ Found = tuple[ContactState, Touch, ContactRegion]
 
 
 def _examine(
-    parts: tuple[Part, Part], faces: tuple[Face, Face], at: Vector, tol: Tolerance
+    parts: tuple[Part, Part], faces: tuple[Face, Face], at: Vector, tol: ContactTolerance
 ) -> Contact | NearMiss | None:
     """Find the contact of two faces, else the state that they miss by the least length, else None.
 
@@ -167,7 +170,7 @@ def _examine(
     return None if found is None else _contact(parts, faces, *found)
 
 
-def _state(faces: tuple[Face, Face], at: Vector, tol: Tolerance) -> Found | _Nearly | None:
+def _state(faces: tuple[Face, Face], at: Vector, tol: ContactTolerance) -> Found | _Nearly | None:
     """Find the first state that two faces are in, else the one that they are nearest to, else None.
 
     The kinds of the faces are in the order of `KINDS`; `at` is a point near the contact, (3,).
@@ -195,7 +198,7 @@ def _state(faces: tuple[Face, Face], at: Vector, tol: Tolerance) -> Found | _Nea
     return nearest
 
 
-def _region(state: ContactState, touch: Touch, faces: tuple[Face, Face], tol: Tolerance) -> ContactRegion | None:
+def _region(state: ContactState, touch: Touch, faces: tuple[Face, Face], tol: ContactTolerance) -> ContactRegion | None:
     """Find the region that two faces share where their surfaces touch; None if they share none.
 
     It must be wide and long beside a length: that of the tolerance, or else one that the touch itself fits within.
@@ -227,11 +230,11 @@ def _contact(
 
 
 def _near_miss(
-    nearly: _Nearly, parts: tuple[Part, Part], faces: tuple[Face, Face], at: Vector, tol: Tolerance
+    nearly: _Nearly, parts: tuple[Part, Part], faces: tuple[Face, Face], at: Vector, tol: ContactTolerance
 ) -> NearMiss:
     """Make the report on two faces that are nearly in a state, with the tolerances that would make it a contact."""
 
-    def works(other: Tolerance) -> bool:
+    def works(other: ContactTolerance) -> bool:
         """Check whether the faces would be in this state with other tolerances."""
         found = _state(faces, at, other)
         return found is not None and not isinstance(found, _Nearly) and found[0] is nearly.state

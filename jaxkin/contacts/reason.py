@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from jaxkin.contacts.region import ContactRegion
 from jaxkin.contacts.remedy import Options, remedy, told_apart
-from jaxkin.contacts.tolerance import Tolerance, reach, smaller_radius
+from jaxkin.contacts.tolerance import ContactTolerance, reach, smaller_radius
 from jaxkin.contacts.touch import Touch
 from jaxkin.geometry.surfaces import Surface
 
@@ -18,9 +18,9 @@ def reason(
     parts: tuple[str, str],
     touch: Touch,
     region: ContactRegion,
-    tolerance: Tolerance,
+    tolerance: ContactTolerance,
     surfaces: tuple[Surface, Surface],
-    works: Callable[[Tolerance], bool],
+    works: Callable[[ContactTolerance], bool],
 ) -> str:
     """Write a clause for each condition of a contact that a touch violates, with what to correct in the model.
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from jaxkin.contacts.region import ContactRegion
-from jaxkin.contacts.tolerance import Tolerance, reach, smaller_radius
+from jaxkin.contacts.tolerance import ContactTolerance, reach, smaller_radius
 from jaxkin.contacts.touch import Touch
 from jaxkin.geometry.surfaces import Surface
 
@@ -32,9 +32,9 @@ Options = dict[str, float]
 def remedy(
     touch: Touch,
     region: ContactRegion,
-    tolerance: Tolerance,
+    tolerance: ContactTolerance,
     surfaces: tuple[Surface, Surface],
-    works: Callable[[Tolerance], bool],
+    works: Callable[[ContactTolerance], bool],
 ) -> Options:
     """Find the tolerances that make a near miss a contact, as few as possible; empty if no acceptable ones do.
 
@@ -49,7 +49,7 @@ def remedy(
 
 
 def _candidates(
-    touch: Touch, region: ContactRegion, tolerance: Tolerance, surfaces: tuple[Surface, Surface]
+    touch: Touch, region: ContactRegion, tolerance: ContactTolerance, surfaces: tuple[Surface, Surface]
 ) -> Iterator[Options]:
     """Yield tolerances that may make the touch a contact: first a larger `fit` alone, then a larger `length` too."""
     radius, clearance = smaller_radius(*surfaces), touch.clearance

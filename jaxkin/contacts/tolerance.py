@@ -29,7 +29,7 @@ ones have less, which `NEAR` covers."""
 
 
 @dataclass(frozen=True)
-class Tolerance:
+class ContactTolerance:
     """The tolerances of contact detection."""
 
     length: float
@@ -45,7 +45,7 @@ class Tolerance:
     near_length: float = 0.0
     """Largest gap that is reported as a near miss, in the unit of the assembly."""
 
-    def between(self, one: Part, other: Part) -> Tolerance:
+    def between(self, one: Part, other: Part) -> ContactTolerance:
         """Return these tolerances with `near_length` set for two given parts."""
         return replace(self, near_length=min(NEAR * self.length, NEAR_PART * min(size((one,)), size((other,)))))
 
