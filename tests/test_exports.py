@@ -6,6 +6,7 @@ import re
 import pytest
 
 import jaxkin as jk
+from documents import ROOT
 from jaxkin import _api
 
 PUBLIC = {name: getattr(jk, name) for name in dir(jk) if not name.startswith("_")}
@@ -41,3 +42,15 @@ def test_what_a_public_call_returns_is_public(name, function):
 def test_what_dir_lists_can_be_asked_for_first():
     """Modules are names of the package only once something in them was imported."""
     assert set(dir(jk)) == {*(name for name in vars(_api) if not name.startswith("_")), "__version__"}
+
+
+def test_a_public_class_shares_its_name_with_no_other_class():
+    """Who looks a name up in the code finds what `jk.` means by it."""
+    made = {name: found.__module__ for name, found in CLASSES.items()}
+    others = [
+        f"{path.relative_to(ROOT)}: {name}"
+        for path in (ROOT / "jaxkin").rglob("*.py")
+        for name in re.findall(r"^class (\w+)", path.read_text(encoding="utf-8"), re.MULTILINE)
+        if name in made and path != ROOT / f"{made[name].replace('.', '/')}.py"
+    ]
+    assert len(made) > 50 and others == []

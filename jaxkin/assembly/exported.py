@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from jaxkin.joints.combine import Chain
 from jaxkin.joints.coupling import Coupling
-from jaxkin.joints.joint import Limits
+from jaxkin.joints.joint import JointLimits
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.screws import freedoms
 
@@ -29,8 +29,8 @@ class Constraint:
     """Distance between the two places that the export gives for its axis or centre, in the unit of the assembly."""
     tilt: float = 0.0
     """Angle between its two axes, radians."""
-    limits: Limits = ()
-    """Limits of its coordinates, counted from the assembled pose: see `jaxkin.joints.joint.Limits`."""
+    limits: JointLimits = ()
+    """Limits of its coordinates, counted from the assembled pose: see `jaxkin.joints.joint.JointLimits`."""
     pitch: float = 0.0
     """Advance per turn of a screw, in the unit of the assembly."""
     values: tuple[float, ...] = ()

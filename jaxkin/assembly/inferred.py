@@ -12,7 +12,7 @@ from jaxkin.assembly.ignored_contacts import without
 from jaxkin.assembly.inference.infer import infer
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Pair
-from jaxkin.assembly.inference.springs import Spring, springs
+from jaxkin.assembly.inference.springs import DrawnSpring, springs
 from jaxkin.assembly.resting import leaves_all_moving, resting
 from jaxkin.assembly.seats import seats_of, useful_freedoms
 from jaxkin.assembly.to_mechanism import Said, from_words, told_by
@@ -54,7 +54,7 @@ def inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said) -> Mec
     return made if pushing == tubes else _inferred(assembly, contacts, said, pushing)
 
 
-def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said, tubes: Sequence[Spring]) -> Mechanism:
+def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said, tubes: Sequence[DrawnSpring]) -> Mechanism:
     """Make the mechanism with what solids imply, and some tubes as springs.
 
     What would stop slides that exact contacts allow is taken only where these slides are of use otherwise, so that the

@@ -14,7 +14,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from jaxkin.design.augmented_lagrangian import Verdict
-from jaxkin.design.problem import HOPELESS, Judged, Problem, Structure, taken_apart
+from jaxkin.design.problem import HOPELESS, Judged, Problem, ProgramKey, taken_apart
 from jaxkin.design.solvers import CHUNK, KEPT, TOGETHER, Solver, in_groups, unit_box
 from jaxkin.solve.execution.compiler import jit_options
 from jaxkin.solve.reference_methods.optional_jaxopt import jaxopt
@@ -26,7 +26,7 @@ HALVINGS = 15
 
 
 class _Programs(NamedTuple):
-    """The programs of problems of one structure, whose numbers are their first argument."""
+    """The programs of problems of one key, whose numbers are their first argument."""
 
     first: Callable[..., Any]
     """Evaluate loss and gradient of designs, for the first state."""
@@ -39,8 +39,8 @@ class _Programs(NamedTuple):
 def bounded(problem: Problem, together: int = TOGETHER) -> Solver:
     """Make the solver by bounded L-BFGS, on vectors scaled to 0..1, `together` designs in a compiled program."""
     lower, width = unit_box(problem.variables)
-    structure, numbers = taken_apart(problem)
-    first, further, judged = _programs(structure)
+    key, numbers = taken_apart(problem)
+    first, further, judged = _programs(key)
 
     def begin(vectors, penalty):
         span = np.where(width > 0, width, 1.0)
@@ -69,17 +69,17 @@ def bounded(problem: Problem, together: int = TOGETHER) -> Solver:
 
 
 @lru_cache(maxsize=KEPT)
-def _programs(structure: Structure) -> _Programs:
-    """Make the programs of problems of this structure."""
+def _programs(key: ProgramKey) -> _Programs:
+    """Make the programs of problems of this key."""
 
     def value_and_grad(unit, penalty, numbers):
-        problem: Problem = structure.problem.unflatten(numbers)
+        problem: Problem = key.problem.unflatten(numbers)
         lower, width = unit_box(problem.variables)
         value, slope = jax.value_and_grad(lambda unit: problem.total(lower + width * unit, penalty))(unit)
         return jnp.nan_to_num(value, nan=HOPELESS, posinf=HOPELESS), jnp.nan_to_num(slope, posinf=0.0, neginf=0.0)
 
     def bounds(numbers):
-        chosen = structure.problem.unflatten(numbers).variables
+        chosen = key.problem.unflatten(numbers).variables
         return jnp.zeros_like(chosen.lower), jnp.where(chosen.upper > chosen.lower, 1.0, 0.0)
 
     package = jaxopt()
@@ -118,6 +118,6 @@ def _programs(structure: Structure) -> _Programs:
         return state, losses.T
 
     def judged(numbers, vectors):
-        return jax.vmap(structure.problem.unflatten(numbers).judge)(vectors)
+        return jax.vmap(key.problem.unflatten(numbers).judge)(vectors)
 
     return _Programs(*(jax.jit(each, **jit_options()) for each in (first, further, judged)))

@@ -12,7 +12,7 @@ from jax import dtypes
 from jaxtyping import Bool, Float
 
 from jaxkin.design.augmented_lagrangian import Penalty, Verdict
-from jaxkin.design.problem import HOPELESS, Problem, Structure, Weighted, taken_apart
+from jaxkin.design.problem import HOPELESS, Problem, ProgramKey, Weighted, taken_apart
 from jaxkin.design.solvers import CHUNK, KEPT, TOGETHER, Solver, in_groups, unit_box
 from jaxkin.solve.execution.two_tiers import TwoTiers
 
@@ -44,8 +44,8 @@ def least_squares(problem: Problem, together: int = TOGETHER) -> Solver:
     """
     dtype = dtypes.canonicalize_dtype(float)
     lower, width = (np.asarray(each, dtype) for each in unit_box(problem.variables))
-    structure, numbers = taken_apart(problem)
-    program = _program(structure, together).search()
+    key, numbers = taken_apart(problem)
+    program = _program(key, together).search()
 
     def found(units, penalty) -> tuple[Weighted, np.ndarray]:
         given = jax.tree.map(lambda leaf: np.asarray(leaf, dtype), (units, penalty))
@@ -92,12 +92,12 @@ def least_squares(problem: Problem, together: int = TOGETHER) -> Solver:
 
 
 @lru_cache(maxsize=KEPT)
-def _program(structure: Structure, together: int) -> TwoTiers:
-    """Make the program of a problem of this structure: residuals of designs, violations weighted, and the Jacobian."""
+def _program(key: ProgramKey, together: int) -> TwoTiers:
+    """Make the program of a problem of this key: residuals of designs, violations weighted, and the Jacobian."""
     del together  # a program is compiled for its number of designs
 
     def program(numbers, units, penalties):
-        problem: Problem = structure.problem.unflatten(numbers)
+        problem: Problem = key.problem.unflatten(numbers)
         lower, width = unit_box(problem.variables)
 
         def one(unit, penalty):

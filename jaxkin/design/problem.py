@@ -148,7 +148,7 @@ def takes_extras(loss: Callable[..., Any]) -> bool:
     return True
 
 
-class Structure(NamedTuple):
+class ProgramKey(NamedTuple):
     """What a program is compiled for."""
 
     problem: Any
@@ -159,12 +159,12 @@ class Structure(NamedTuple):
     """Of JAX: precision, and device."""
 
 
-def taken_apart(problem: Problem) -> tuple[Structure, list[Array]]:
-    """Take a problem apart into its structure, which is hashable, and its numbers, on the device."""
+def taken_apart(problem: Problem) -> tuple[ProgramKey, list[Array]]:
+    """Take a problem apart into its key, which is hashable, and its numbers, on the device."""
     leaves, tree = jax.tree.flatten(problem)
     numbers = [jnp.asarray(leaf) for leaf in leaves]
     settings = dtypes.canonicalize_dtype(float), getattr(jax.config, "jax_default_device", None)
-    return Structure(tree, tuple((each.shape, each.dtype) for each in numbers), settings), numbers
+    return ProgramKey(tree, tuple((each.shape, each.dtype) for each in numbers), settings), numbers
 
 
 def _children(problem: Problem) -> tuple[tuple[Any, ...], tuple[Any, ...]]:

@@ -38,7 +38,7 @@ from jaxkin.io.robot_model import (
     tag,
     unknown_parts,
 )
-from jaxkin.joints.joint import Limits
+from jaxkin.joints.joint import JointLimits
 from jaxkin.joints.kinds import JointKind
 
 KINDS = {"hinge": JointKind.REVOLUTE, "slide": JointKind.PRISMATIC, "ball": JointKind.SPHERICAL}
@@ -234,7 +234,7 @@ class _Reader:
         values = (value,) if value and kind is not JointKind.SPHERICAL else ()
         return RobotJoint(name, parts, kind, frame, frame, f"{written} {name!r}", limits, values)
 
-    def _limits(self, said: dict[str, str], unit: float, value: float, where: str) -> Limits:
+    def _limits(self, said: dict[str, str], unit: float, value: float, where: str) -> JointLimits:
         """Read the range of a joint from the pose that is written, where it is limited."""
         limited = said.get("limited", "auto")
         if limited == "false" or "range" not in said or (limited == "auto" and not self.compiler.auto_limits):

@@ -15,7 +15,7 @@ import numpy as np
 from jaxkin.geometry.inertial import Inertial
 from jaxkin.geometry.pose import Pose, rotation
 from jaxkin.joints.coupling import Coupling
-from jaxkin.joints.joint import Limits
+from jaxkin.joints.joint import JointLimits
 from jaxkin.joints.kinds import JointKind
 
 WORLD = "world"
@@ -84,7 +84,7 @@ class RobotJoint:
     """On the second link."""
     text: str
     """What the file calls it, such as "<joint name='hip'>"."""
-    limits: Limits = ()
+    limits: JointLimits = ()
     """Counted from the zero of the file."""
     values: tuple[float, ...] = ()
     """What the file calls its coordinates at the zero; empty where that is zero too."""
@@ -141,7 +141,7 @@ def limit(text: str | None, where: str, none: float) -> float:
     return found
 
 
-def limits_between(low: float, high: float) -> Limits:
+def limits_between(low: float, high: float) -> JointLimits:
     """Make the limits of one coordinate; none where neither end is below `UNLIMITED`."""
     low, high = (-np.inf if low <= -UNLIMITED else low), (np.inf if high >= UNLIMITED else high)
     return ((low, high),) if np.isfinite([low, high]).any() else ()

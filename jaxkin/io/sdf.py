@@ -32,7 +32,7 @@ from jaxkin.io.sdf_gearbox import Gearbox, gearboxes
 from jaxkin.io.sdf_includes import axis_in_model, included
 from jaxkin.io.sdf_shapes import shapes_of
 from jaxkin.joints.coupling import Coupling
-from jaxkin.joints.joint import Limits
+from jaxkin.joints.joint import JointLimits
 from jaxkin.joints.kinds import JointKind
 
 KINDS = {
@@ -159,7 +159,7 @@ class _Reader:
                 self.mimics.append((f"{name} {number}" if said == "revolute2" else name, prefix, mimic, where))
         (first, one), (second, other) = axes
         turn = np.eye(3)
-        limits: Limits = ()
+        limits: JointLimits = ()
         if kind is JointKind.UNIVERSAL:
             turn = _cross(one, other, where)
             limits = _both(self._limits(second, where), self._limits(first, where))
@@ -216,7 +216,7 @@ class _Reader:
             return frames.in_model(named)[:3, :3] @ written
         return written if axis_in_model(axis, self.version) else own[:3, :3] @ written
 
-    def _limits(self, axis: Element | None, where: str) -> Limits:
+    def _limits(self, axis: Element | None, where: str) -> JointLimits:
         low, high = (
             limit(None if axis is None else axis.findtext(f"limit/{side}"), f"{where}: limit", none)
             for side, none in (("lower", -np.inf), ("upper", np.inf))
@@ -242,7 +242,7 @@ def _cross(one: np.ndarray, other: np.ndarray, where: str) -> np.ndarray:
     return np.stack([x, one, np.cross(x, one)], axis=1)
 
 
-def _both(first: Limits, second: Limits) -> Limits:
+def _both(first: JointLimits, second: JointLimits) -> JointLimits:
     """Join the limits of two coordinates, of which each may have none."""
     none = ((-np.inf, np.inf),)
     return (*(first or none), *(second or none)) if first or second else ()

@@ -30,7 +30,7 @@ from jaxkin.io.robot_model import (
     unknown_parts,
 )
 from jaxkin.joints.coupling import Coupling
-from jaxkin.joints.joint import Limits
+from jaxkin.joints.joint import JointLimits
 from jaxkin.joints.kinds import JointKind
 
 KINDS = {
@@ -202,7 +202,7 @@ class _Reader:
         )
         return follower(name, leader, factor, offset, joints, where, self.notes)
 
-    def _limits(self, each: Element, where: str) -> Limits:
+    def _limits(self, each: Element, where: str) -> JointLimits:
         """Read the limits of a joint: none where neither is written, and zero for the one that is not."""
         found = each.find("limit")
         if found is None or (found.get("lower") is None and found.get("upper") is None):

@@ -36,7 +36,7 @@ JointCoordinate = tuple[int, int]
 """(joint, coordinate): the number of a joint in `Linkage.joints`, and that of one of its `coordinates`. A pair (joint,
 sign) is no such thing, but a step of a walk: see `jaxkin.topology.graph`."""
 
-Limits = tuple[tuple[float, float], ...]
+JointLimits = tuple[tuple[float, float], ...]
 """For each coordinate of a joint its lowest and highest displacement from the assembled pose, radians or lengths in the
 unit of the mechanism, -inf and inf where it has none; empty where no coordinate has limits."""
 
@@ -64,8 +64,8 @@ class Joint:
     """Advance per turn of a screw, in the unit of the mechanism; zero for all others."""
     evidence: Evidence | None = None
     """What the joint is known from; None after JAX has flattened and rebuilt the joint."""
-    limits: Limits = ()
-    """Limits of the coordinates, as they were given or read: see `Limits`. Poses beyond them are computed too."""
+    limits: JointLimits = ()
+    """Limits of the coordinates, as they were given or read: see `JointLimits`. Poses beyond them are computed too."""
     curves: tuple[Followed | None, ...] = ()
     """For each movement the curve or the surface that it follows, None for others; empty where none follows
     one."""
@@ -150,7 +150,7 @@ def joint(
     frames: Sequence[Array] | Array,
     pitch: float | int | Array = 0.0,
     evidence: Evidence = BY_HAND,
-    limits: Limits = (),
+    limits: JointLimits = (),
     curves: tuple[Followed | None, ...] = (),
 ) -> Joint:
     """Make a joint whose frames coincide on both parts: the paper's form, closed at the assembled pose.

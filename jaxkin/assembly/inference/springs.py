@@ -26,7 +26,7 @@ SLENDER = 1.0
 """Length over the outer diameter, at least: washers and rings are shorter."""
 
 
-class Spring(NamedTuple):
+class DrawnSpring(NamedTuple):
     """A tube of the form of a compressed spring, and what it is between."""
 
     part: str
@@ -44,7 +44,7 @@ class Spring(NamedTuple):
 
 def springs(
     measured: Measured, contacts: Sequence[Contact], fixed: Collection[str], by_hand: Collection[str]
-) -> list[Spring]:
+) -> list[DrawnSpring]:
     """Find the tubes with thin walls that are loose about a rod and lie with both ends on different parts, and on
     nothing else; those of which a user says something `by_hand` are left to that.
 
@@ -71,7 +71,7 @@ def springs(
         text = f"{part.name!r} is taken for a spring, a tube with a clearance of {clearance:.2g} about its rod, which "
         text += f"pushes {pushed!r} from {seat!r}; say rigid=[[{part.name!r}, {pushed!r}]] if it is a spacer"
         evidence = Evidence(EvidenceKind.ENCLOSED, (("radius", tube[1].radius), ("clearance", clearance)), text)
-        result.append(Spring(part.name, seat, pushed, Inference((seat, part.name), evidence)))
+        result.append(DrawnSpring(part.name, seat, pushed, Inference((seat, part.name), evidence)))
     return result
 
 
