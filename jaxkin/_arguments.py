@@ -29,6 +29,13 @@ def check_motion(given: Any, what: str) -> None:
         raise ValueError(f"{what} are those of a motion, mechanism.sweep(drive), got {type(given).__name__}")
 
 
+def check_known(what: str, call: str, *given: Any) -> None:
+    """Raise ValueError where JAX traces numbers of what was given: `what`, which begins the message, is found by `call`
+    on the host."""
+    if traced(given):
+        raise ValueError(f"{what} are found on the host: call {call} outside of jit, vmap and grad")
+
+
 def by_name(given: Any, what: str, example: str) -> Mapping[Any, Any]:
     """Return what was given if it is a mapping, else raise ValueError with an example."""
     if not isinstance(given, Mapping):

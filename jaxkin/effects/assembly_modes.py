@@ -19,9 +19,8 @@ import numpy as np
 from jax import dtypes
 from jaxtyping import Array, Float
 
-from jaxkin._arguments import by_name, check_mechanism, one_number, text, whole_number
+from jaxkin._arguments import by_name, check_known, check_mechanism, one_number, text, whole_number
 from jaxkin._names import counted, listed
-from jaxkin._traced import traced
 from jaxkin.effects.coupled_turns import coupled_turns
 from jaxkin.effects.determined_drive import check_determined
 from jaxkin.effects.mode_plot import draw_modes
@@ -199,8 +198,7 @@ def assembly_modes(
     follow, for loops that are open in the assembled pose or agree only nearly, and inside `jit`, `vmap` and `grad`.
     """
     check_mechanism(mechanism, "assembly modes")
-    if traced((mechanism, drive)):
-        raise ValueError("modes are searched on the host: call assembly_modes outside of jit, vmap and grad")
+    check_known("assembly modes", "jk.assembly_modes", mechanism, drive)
     tries, seed = whole_number(tries, "tries", 1), whole_number(seed, "seed")
     options, linkage = options_with(options), mechanism.linkage
     ranges = _ranges(drive)

@@ -12,8 +12,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float
 
-from jaxkin._arguments import by_name, check_mechanism, whole_number
-from jaxkin._traced import traced
+from jaxkin._arguments import by_name, check_known, check_mechanism, whole_number
 from jaxkin.effects.calibration_data import Data, Kind, data_of
 from jaxkin.effects.calibration_result import Calibration
 from jaxkin.effects.calibration_unknowns import Unknowns, nominal_values, unknowns_of
@@ -77,8 +76,8 @@ def calibrate(
     check_mechanism(mechanism, "calibrations")
     iterations = whole_number(iterations, "iterations", 1)
     driven = by_name(drive, "driven displacements", "{'A': angles}")
-    if traced(mechanism, tuple(driven.values()), tuple(by_name(measured, "measurements", "{'D': angles}").values())):
-        raise ValueError("calibrate is for numbers: call it outside of jit, vmap and grad")
+    measurements = by_name(measured, "measurements", "{'D': angles}")
+    check_known("calibrations", "jk.calibrate", mechanism, tuple(driven.values()), tuple(measurements.values()))
     motion = mechanism.sweep(driven, options=options)
     _check_start(motion.on_branch)
     data = data_of(mechanism, measured, sigma, len(motion))

@@ -10,10 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Bool, Float
 
-from jaxkin._arguments import check_motion, numbers, several
+from jaxkin._arguments import check_known, check_motion, numbers, several
 from jaxkin._grouped import MAX_LINES
 from jaxkin._names import nearest
-from jaxkin._traced import traced
 from jaxkin.effects.clash_shapes import Shape, boxes_along, displaced, near_pairs, shape_of
 from jaxkin.effects.invariant_faces import SAME_PLACE, invariant
 from jaxkin.effects.penetration import depths
@@ -171,8 +170,7 @@ def clashes(
     inside `jit`, `vmap` and `grad`.
     """
     check_motion(motion, "clashes")
-    if traced(motion):
-        raise ValueError("clashes are found on the host: call clashes outside of jit, vmap and grad")
+    check_known("clashes", "jk.clashes", motion)
     mechanism = motion.mechanism
     if not any(part.is_solid for part in mechanism.solids):
         raise ValueError(

@@ -14,9 +14,8 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Bool, Float
 
-from jaxkin._arguments import check_motion
+from jaxkin._arguments import check_known, check_motion
 from jaxkin._grouped import MAX_LINES
-from jaxkin._traced import traced
 from jaxkin.contacts.contact import Contact
 from jaxkin.contacts.separation import Displacements, Gaps
 from jaxkin.contacts.whole_face import is_whole, share_region
@@ -122,8 +121,7 @@ def contact_validity(motion: Motion) -> ContactValidity:
     `jit`, `vmap` and `grad`.
     """
     check_motion(motion, "contacts")
-    if traced(motion):
-        raise ValueError("contacts are checked on the host: call contact_validity outside of jit, vmap and grad")
+    check_known("contacts that end", "jk.contact_validity", motion)
     mechanism = motion.mechanism
     if not mechanism.solids or not mechanism.contacts:
         raise ValueError(

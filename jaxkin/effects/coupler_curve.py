@@ -13,10 +13,9 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin._arguments import check_motion
+from jaxkin._arguments import check_known, check_motion
 from jaxkin._files import save_figure
 from jaxkin._names import listed, nearest
-from jaxkin._traced import traced
 from jaxkin.effects.curve_range import CurvePoints, CurveRange, Evaluate, range_of
 from jaxkin.effects.cusps_crossings import Crossing, Cusp, Place, crossings_of, cusps_of
 from jaxkin.effects.pose_plot import save_rows
@@ -109,8 +108,7 @@ def coupler_curve(motion: Motion, part: str, point: Sequence[float | int] | np.n
     and inside `jit`, `vmap` and `grad`.
     """
     check_motion(motion, "coupler curves")
-    if traced(motion, point):
-        raise ValueError("cusps and crossings are found on the host: call coupler_curve outside of jit, vmap and grad")
+    check_known("cusps and crossings", "jk.coupler_curve", motion, point)
     if len(motion.inputs) != 1:
         raise ValueError(f"a curve has one drive, and this motion has {listed(list(motion.inputs))}: hold the others")
     if part not in motion.mechanism.parts:

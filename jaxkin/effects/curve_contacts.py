@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Bool, Float
 
-from jaxkin._arguments import check_motion
-from jaxkin._traced import traced
+from jaxkin._arguments import check_known, check_motion
 from jaxkin.effects.curve_contact import CurveContact, CurveContacts, Poses, made_contact
 from jaxkin.effects.surface_contact import contacts_on_surface
 from jaxkin.geometry.curves import CurvePoint, Spline, sampled_pieces
@@ -38,8 +37,7 @@ def curve_contacts(motion: Motion) -> CurveContacts:
     without joints along curves or over surfaces, and inside `jit`, `vmap` and `grad`.
     """
     check_motion(motion, "contacts of curves")
-    if traced(motion):
-        raise ValueError("curve_contacts is for numbers: call it outside of jit, vmap and grad")
+    check_known("contacts of curves", "jk.curve_contacts", motion)
     found = []
     closed = np.asarray(motion.on_branch)
     for joint, q in zip(motion.mechanism.all_joints, motion.displacements, strict=True):

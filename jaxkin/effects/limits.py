@@ -16,8 +16,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin._arguments import by_name, check_mechanism, several
-from jaxkin._traced import traced
+from jaxkin._arguments import by_name, check_known, check_mechanism, several
 from jaxkin.effects.determined_drive import check_determined
 from jaxkin.effects.limit_search import CoordinateRange, FoundLimit, LimitKind, find_limit, why_locked, why_singular
 from jaxkin.effects.mode_plot import draw_modes
@@ -123,8 +122,7 @@ def limits(
     the loops are open or singular in the assembled pose, and inside `jit`, `vmap` and `grad`.
     """
     check_mechanism(mechanism, "limits")
-    if traced(mechanism):
-        raise ValueError("limits are searched on the host: call limits outside of jit, vmap and grad")
+    check_known("limits", "jk.limits", mechanism)
     linkage = mechanism.linkage
     if not isinstance(drive, str):
         raise ValueError(f"limits are those of one coordinate, such as {mechanism.all_joints[0].name!r}, got {drive!r}")

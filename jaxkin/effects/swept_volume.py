@@ -14,10 +14,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin._arguments import check_motion, one_number
+from jaxkin._arguments import check_known, check_motion, one_number
 from jaxkin._files import save_figure, whole
 from jaxkin._names import nearest
-from jaxkin._traced import traced
 from jaxkin.effects.pose_runs import PoseRun, off_between, placements, runs_of, sagitta
 from jaxkin.geometry.isosurface import zero_surface
 from jaxkin.geometry.part import Part
@@ -198,8 +197,7 @@ def swept_volume(motion: Motion, part: str, *, resolution: float | None = None) 
 def _given(motion: Any, part: str) -> tuple[Part, list[PoseRun], int]:
     """Find the solid of a part, its closed poses, and the number of those left out; ValueError if there are none."""
     check_motion(motion, "swept volumes")
-    if traced(motion):
-        raise ValueError("a swept volume is found on the host: ask outside of jit, vmap and grad")
+    check_known("swept volumes", "jk.swept_volume", motion)
     mechanism = motion.mechanism
     if part not in mechanism.parts:
         raise ValueError(f"there is no part {part!r}{nearest(str(part), mechanism.parts)}")

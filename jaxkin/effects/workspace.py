@@ -14,9 +14,8 @@ import numpy as np
 from jax import dtypes
 from jaxtyping import Array, Bool, Float, Int
 
-from jaxkin._arguments import by_name, check_mechanism, numbers, several
+from jaxkin._arguments import by_name, check_known, check_mechanism, numbers, several
 from jaxkin._names import listed, nearest
-from jaxkin._traced import traced
 from jaxkin.effects.determined_drive import check_determined
 from jaxkin.effects.grid_flood import Flooded, flood
 from jaxkin.effects.pose_plot import save_rows
@@ -146,8 +145,7 @@ def workspace(
     loops cannot follow, for loops that are open in the assembled pose, and inside `jit`, `vmap` and `grad`.
     """
     check_mechanism(mechanism, "workspaces")
-    if traced((mechanism, ranges, point)):
-        raise ValueError("a workspace is mapped on the host: call workspace outside of jit, vmap and grad")
+    check_known("workspaces", "jk.workspace", mechanism, ranges, point)
     linkage, options = mechanism.linkage, options_with(options)
     grid = _grid(ranges)
     if part not in mechanism.parts:

@@ -11,9 +11,8 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from jaxkin._arguments import by_name, check_mechanism, numbers
+from jaxkin._arguments import by_name, check_known, check_mechanism, numbers
 from jaxkin._runs import runs
-from jaxkin._traced import traced
 from jaxkin.effects.forces.drive import drive_forces
 from jaxkin.effects.forces.given import Applied, rows_per_pose
 from jaxkin.effects.forces.masses import Masses
@@ -144,8 +143,7 @@ def equilibrium(
     """
     check_mechanism(mechanism, "equilibria")
     drive = by_name(drive, "driven displacements", "{'A': np.linspace(0, 2 * np.pi, 73)}")
-    if traced(mechanism, dict(drive), masses, applied):
-        raise ValueError("equilibria are found on the host: call jk.equilibrium outside of jit, vmap and grad")
+    check_known("equilibria", "jk.equilibrium", mechanism, dict(drive), masses, applied)
     for load in loads_and_frictions(Acting(masses, gravity, applied))[0]:
         if rows := rows_per_pose(load):
             raise ValueError(
