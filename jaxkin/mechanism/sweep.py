@@ -101,11 +101,11 @@ def _follow(mechanism: Mechanism, drive: Mapping[str, Any], options: SolverOptio
     values = given_values(plan.driven, drive)
     if plan.infeasible:
         raise ValueError(why_infeasible(mechanism, plan.infeasible))
-    known = tolerance is None or not traced(tolerance)
-    asked = closure_tolerance(options.tolerance if known else tolerance, _largest_angle(plan.driven, values))
+    traced_tolerance = tolerance is not None and traced(tolerance)
+    asked = closure_tolerance(tolerance if traced_tolerance else options.tolerance, _largest_angle(plan.driven, values))
     loop_groups = plan.loop_groups if values[0].shape[0] else ()
     followed, finite = with_finite_inputs(values)
-    known = known and all(isinstance(each, np.ndarray) for each in followed)
+    known = not traced_tolerance and all(isinstance(each, np.ndarray) for each in followed)
     # by formulas for all loop groups in one program; where some have none, each loop group decides in `programs.solve`
     if loop_groups and plan.formula_sweep is not None and known and prefers_formulas(options, followed[0]):
         found = plan.formula_sweep.solve(followed, None if finite is None else np.asarray(finite), asked)
