@@ -15,7 +15,7 @@ from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import coordinates
 from jaxkin.mechanism.inverse.aims import aims_of
 from jaxkin.mechanism.inverse.bounded import Bounds
-from jaxkin.mechanism.inverse.problem import Problem
+from jaxkin.mechanism.inverse.problem import InverseProblem
 from jaxkin.mechanism.inverse.solution import CLOSED, REACHED, Solution, from_assembled, from_random, from_unlimited
 from jaxkin.mechanism.joint_limits import with_limited
 from jaxkin.mechanism.motion import Motion
@@ -118,7 +118,7 @@ def inverse(
     wanted = several(inputs or mechanism.motors or _drivable(mechanism), "inputs", "coordinates")
     if not wanted:
         raise ValueError("the mechanism has no freedom, so no target can move it; print(mechanism) says what blocks it")
-    problem = Problem(mechanism, aims_of(mechanism, targets, by_name(weights or {}, "weights", "{'A': 10.0}")))
+    problem = InverseProblem(mechanism, aims_of(mechanism, targets, by_name(weights or {}, "weights", "{'A': 10.0}")))
     chosen = coordinates(mechanism.linkage, wanted)
     for name in chosen:
         problem.inputs[problem.column(name)] = True
@@ -162,7 +162,7 @@ def _drivable(mechanism: Mechanism) -> Sequence[str]:
 
 
 def _motion(
-    mechanism: Mechanism, problem: Problem, x: np.ndarray, closure: np.ndarray, inputs: Sequence[str]
+    mechanism: Mechanism, problem: InverseProblem, x: np.ndarray, closure: np.ndarray, inputs: Sequence[str]
 ) -> Motion:
     """Make the motion whose poses were found, with the displacements of the inputs as its own."""
     q = jnp.asarray(x * problem.units)
@@ -180,7 +180,7 @@ def _at_limits(x: Float[np.ndarray, "poses columns"], bounds: Bounds) -> Bool[np
 
 
 def _distinct(
-    problem: Problem, bounds: Bounds, x: Float[np.ndarray, "starts columns"], errors: np.ndarray, first: int
+    problem: InverseProblem, bounds: Bounds, x: Float[np.ndarray, "starts columns"], errors: np.ndarray, first: int
 ) -> Float[np.ndarray, "solutions columns"]:
     """Collect the solutions that fit as well as the first one, which comes first; the others turned back near zero."""
     kept: list[np.ndarray] = []

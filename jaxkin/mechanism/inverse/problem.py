@@ -21,7 +21,7 @@ from jaxkin.linkage.joint_motion import part_transforms
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.inverse.aims import Aim, JointAim, PartAim, poses_of
 from jaxkin.mechanism.inverse.bounded import Bounds
-from jaxkin.mechanism.inverse.step import Equations
+from jaxkin.mechanism.inverse.step import StepEquations
 from jaxkin.mechanism.targets import extent
 
 if TYPE_CHECKING:
@@ -31,8 +31,11 @@ PENALTY = 100.0
 """Weight of squared closure residuals beside squared errors of targets, where steps are judged."""
 
 
-class Problem:
-    """The columns are the coordinates of all joints in turn, in radians, and in lengths over the `size`."""
+class InverseProblem:
+    """The loops and the aims of an inverse problem, as functions of the coordinates of all joints.
+
+    Columns are these coordinates, of one joint after the other, in radians, and in lengths over the `size`.
+    """
 
     def __init__(self, mechanism: Mechanism, aims: Sequence[Aim]) -> None:
         linkage = mechanism.linkage
@@ -65,7 +68,7 @@ class Problem:
 
     def equations(
         self, x: Float[np.ndarray, "poses columns"], share: float
-    ) -> tuple[Equations, Float[np.ndarray, " poses"]]:
+    ) -> tuple[StepEquations, Float[np.ndarray, " poses"]]:
         """Evaluate the equations at coordinates (poses, columns), and the merit that a step is to lessen.
 
         Targets are `share` of the way from the assembled pose to where they are asked for.
@@ -100,7 +103,7 @@ class Problem:
         targets = np.concatenate([np.zeros((len(x), 0)), *errors], axis=1)
         aimed = np.concatenate([np.zeros((len(x), 0, x.shape[1])), *slopes], axis=1)
         merit = np.sum(targets**2, axis=1) + PENALTY * np.sum(closure**2, axis=1)
-        return Equations(closure, jacobian, targets, aimed, x - self.rest), merit
+        return StepEquations(closure, jacobian, targets, aimed, x - self.rest), merit
 
 
 def _turns(linkage: Linkage, aims: Sequence[Aim]) -> list[bool]:

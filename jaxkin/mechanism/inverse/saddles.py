@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from jaxkin.mechanism.inverse.bounded import Bounds, least, without
-from jaxkin.mechanism.inverse.problem import Problem
+from jaxkin.mechanism.inverse.problem import InverseProblem
 from jaxkin.mechanism.inverse.step import is_stationary, scale, slope, tangent
 
 HOLDS = 1e-9
@@ -20,7 +20,7 @@ BESIDE = 1e-2
 
 
 def step_off(
-    problem: Problem, x: Float[np.ndarray, "poses columns"], bounds: Bounds, share: float, enough: float
+    problem: InverseProblem, x: Float[np.ndarray, "poses columns"], bounds: Bounds, share: float, enough: float
 ) -> tuple[Float[np.ndarray, "poses columns"], Bool[np.ndarray, " poses"]]:
     """Step off poses with errors above `enough` that are stationary and not least; also tell which these are.
 

@@ -9,9 +9,9 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from jaxkin.mechanism.inverse.bounded import Bounds
-from jaxkin.mechanism.inverse.problem import Problem
+from jaxkin.mechanism.inverse.problem import InverseProblem
 from jaxkin.mechanism.inverse.saddles import step_off
-from jaxkin.mechanism.inverse.step import Equations, Step, is_stationary, step
+from jaxkin.mechanism.inverse.step import InverseStep, StepEquations, is_stationary, step
 
 STAGES = 8
 """Steps in which targets are moved from the assembled pose to where they are asked for, so that its branch is kept."""
@@ -58,7 +58,7 @@ class Solution(NamedTuple):
     """Whether no movement within loops and limits lessens the error, to first order."""
 
 
-def from_assembled(problem: Problem, bounds: Bounds, iterations: int) -> Solution:
+def from_assembled(problem: InverseProblem, bounds: Bounds, iterations: int) -> Solution:
     """Solve from the assembled pose, along targets that move from there to where they are asked for."""
     x = np.clip(np.zeros((problem.poses, len(problem.units))), *bounds)
     x, _ = step_off(problem, x, bounds, 1 / STAGES, REACHED)
@@ -67,7 +67,7 @@ def from_assembled(problem: Problem, bounds: Bounds, iterations: int) -> Solutio
     return _finished(problem, x, bounds, iterations)
 
 
-def from_unlimited(problem: Problem, bounds: Bounds, iterations: int) -> Solution:
+def from_unlimited(problem: InverseProblem, bounds: Bounds, iterations: int) -> Solution:
     """Solve without limits from the assembled pose, and from there within them, after whole turns that lead into them.
 
     A hinge that stops on its way to a place may get there the other way round.
@@ -76,7 +76,7 @@ def from_unlimited(problem: Problem, bounds: Bounds, iterations: int) -> Solutio
     return _finished(problem, np.clip(x, *bounds), bounds, iterations)
 
 
-def from_random(problem: Problem, bounds: Bounds, iterations: int, count: int, seed: int) -> Iterator[Solution]:
+def from_random(problem: InverseProblem, bounds: Bounds, iterations: int, count: int, seed: int) -> Iterator[Solution]:
     """Solve from starts at random within the limits: on a turn, or along two sizes, as near zero as they let it be."""
     rng = np.random.default_rng(seed)
     reach = np.where(problem.lengths, 1.0, np.pi)
@@ -87,7 +87,9 @@ def from_random(problem: Problem, bounds: Bounds, iterations: int, count: int, s
         yield _finished(problem, x, bounds, iterations)
 
 
-def _finished(problem: Problem, x: Float[np.ndarray, "poses columns"], bounds: Bounds, iterations: int) -> Solution:
+def _finished(
+    problem: InverseProblem, x: Float[np.ndarray, "poses columns"], bounds: Bounds, iterations: int
+) -> Solution:
     """Solve for the whole targets, and again from beside poses whose errors are stationary and not least."""
     x = _iterated(problem, x, bounds, 1.0, iterations)
     for _ in range(ESCAPES):
@@ -101,7 +103,7 @@ def _finished(problem: Problem, x: Float[np.ndarray, "poses columns"], bounds: B
 
 
 def _iterated(
-    problem: Problem, x: Float[np.ndarray, "poses columns"], bounds: Bounds, share: float, iterations: int
+    problem: InverseProblem, x: Float[np.ndarray, "poses columns"], bounds: Bounds, share: float, iterations: int
 ) -> Float[np.ndarray, "poses columns"]:
     """Iterate for targets that are `share` of the way to where they are asked for, each pose until it rests."""
     damping, left = np.zeros(len(x)), np.arange(len(x))
@@ -123,7 +125,8 @@ def _iterated(
         )
         if not goes.any():
             break
-        left, errors, largest, found = left[goes], errors[goes], largest[goes], Step(*(each[goes] for each in found))
+        left, errors, largest = left[goes], errors[goes], largest[goes]
+        found = InverseStep(*(each[goes] for each in found))
         tried = x.copy()
         tried[left] += found.move * np.minimum(1.0, LARGEST / largest)[:, None]
         tried, there, reached = _restored(problem, np.clip(tried, *bounds), bounds, share)
@@ -134,7 +137,7 @@ def _iterated(
         accepted = np.zeros(len(x), bool)
         accepted[left[taken]] = True
         x, merit = np.where(accepted[:, None], tried, x), np.where(accepted, reached, merit)
-        now = Equations(*(_where(accepted, new, old) for new, old in zip(there, now, strict=True)))
+        now = StepEquations(*(_where(accepted, new, old) for new, old in zip(there, now, strict=True)))
         damping[left] = np.where(taken & as_foreseen, 0.3 * damping[left], np.maximum(4.0 * damping[left], DAMPING))
         damping[damping < DAMPING / 10] = 0.0
     # at the end of its reach an arm that moves to where it rests may leave targets that were met
@@ -143,8 +146,8 @@ def _iterated(
 
 
 def _restored(
-    problem: Problem, x: Float[np.ndarray, "poses columns"], bounds: Bounds, share: float
-) -> tuple[Float[np.ndarray, "poses columns"], Equations, Float[np.ndarray, " poses"]]:
+    problem: InverseProblem, x: Float[np.ndarray, "poses columns"], bounds: Bounds, share: float
+) -> tuple[Float[np.ndarray, "poses columns"], StepEquations, Float[np.ndarray, " poses"]]:
     """Close the loops again after a step along their tangent; also returns equations and merit there."""
     now, merit = problem.equations(x, share)
     for _ in range(RESTORATIONS):

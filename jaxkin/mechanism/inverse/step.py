@@ -23,7 +23,7 @@ STATIONARY = 1e-4
 within about its square of the least ones."""
 
 
-class Equations(NamedTuple):
+class StepEquations(NamedTuple):
     """What a step is to solve, at some coordinates of each pose."""
 
     closure: Float[np.ndarray, "poses equations"]
@@ -35,12 +35,12 @@ class Equations(NamedTuple):
     rest: Float[np.ndarray, "poses columns"]
     """How far each column is from where it rests."""
 
-    def at(self, poses: np.ndarray) -> Equations:
+    def at(self, poses: np.ndarray) -> StepEquations:
         """Select the equations of some poses, by their numbers."""
-        return Equations(*(each[poses] for each in self))
+        return StepEquations(*(each[poses] for each in self))
 
 
-class Step(NamedTuple):
+class InverseStep(NamedTuple):
     """A step, and what becomes of the squared errors of the targets if they are linear."""
 
     move: Float[np.ndarray, "poses columns"]
@@ -51,12 +51,12 @@ class Step(NamedTuple):
 
 
 def step(
-    equations: Equations,
+    equations: StepEquations,
     x: Float[np.ndarray, "poses columns"],
     bounds: Bounds,
     damping: Float[np.ndarray, " poses"],
     inputs: Bool[np.ndarray, "#poses columns"],
-) -> Step:
+) -> InverseStep:
     """Compute the step of each pose, which keeps limits; `damping` is that of Levenberg and Marquardt."""
     room = Bounds(bounds.low - x, bounds.high - x)
     free = np.broadcast_to(np.eye(x.shape[1]), (*x.shape, x.shape[1]))
@@ -65,11 +65,11 @@ def step(
     left = equations.targets - np.einsum("pij,pj->pi", equations.targets_jacobian, move)
     chosen = np.eye(x.shape[1]) * np.broadcast_to(inputs, x.shape)[:, None, :]
     rested, _ = fit(chosen, -equations.rest * inputs, damping, free, move, room)
-    return Step(rested, np.linalg.norm(rested - move, axis=1), np.sum(left**2, axis=1))
+    return InverseStep(rested, np.linalg.norm(rested - move, axis=1), np.sum(left**2, axis=1))
 
 
 def slope(
-    equations: Equations, x: Float[np.ndarray, "poses columns"], bounds: Bounds
+    equations: StepEquations, x: Float[np.ndarray, "poses columns"], bounds: Bounds
 ) -> tuple[Float[np.ndarray, "poses columns"], Float[np.ndarray, "poses columns"]]:
     """Find the movement of steepest descent of half the squared errors that keeps loops and limits, and multipliers.
 
@@ -79,19 +79,19 @@ def slope(
     return downhill(tangent(equations), falls, x, bounds)
 
 
-def tangent(equations: Equations) -> Float[np.ndarray, "poses columns columns"]:
+def tangent(equations: StepEquations) -> Float[np.ndarray, "poses columns columns"]:
     """Project on the movements that keep the loops closed, to first order."""
     columns = equations.closure_jacobian.shape[2]
     return np.eye(columns) - least(equations.closure_jacobian, equations.closure)[1]
 
 
-def scale(equations: Equations) -> Float[np.ndarray, " poses"]:
+def scale(equations: StepEquations) -> Float[np.ndarray, " poses"]:
     """Multiply the norm of the errors by that of their derivatives: the measure of slopes and curvatures."""
     return np.linalg.norm(equations.targets, axis=1) * np.linalg.norm(equations.targets_jacobian, axis=(1, 2))
 
 
 def is_stationary(
-    equations: Equations, x: Float[np.ndarray, "poses columns"], bounds: Bounds, cosine: float = STATIONARY
+    equations: StepEquations, x: Float[np.ndarray, "poses columns"], bounds: Bounds, cosine: float = STATIONARY
 ) -> Bool[np.ndarray, " poses"]:
     """Tell at which poses no movement within loops and limits lessens the errors, to first order."""
     down, _ = slope(equations, x, bounds)
