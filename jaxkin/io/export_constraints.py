@@ -14,7 +14,7 @@ from jaxkin.io.names import cleaned
 from jaxkin.io.simscape import Export, ExportedJoint, ExportedMate
 from jaxkin.joints.combine import LOWER_PAIRS, Chain
 from jaxkin.joints.kinds import JointKind
-from jaxkin.joints.mates import Feature, mate
+from jaxkin.joints.mates import MateFeature, mate
 
 Paths = Mapping[tuple[str, ...], str]
 """Paths of instances -> names of their first solids."""
@@ -132,7 +132,7 @@ def _mate(each: ExportedMate, where: Places, metres: float, length: float, notes
         return Constraint(
             cleaned(each.name), parts, text, Chain((LOWER_PAIRS[0, 0][1],), np.eye(4)[None]), JointKind.FIXED
         )
-    features = [Feature.of(side.kind, side.point / metres, side.axis) for side in each.sides]
+    features = [MateFeature.of(side.kind, side.point / metres, side.axis) for side in each.sides]
     found = mate(each.kind, features[0], features[1], PARALLEL_MATES, length) if features[0] and features[1] else None
     if found is None:
         named = [side.kind or "nameless feature" for side in each.sides]

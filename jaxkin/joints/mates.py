@@ -33,7 +33,7 @@ _FEATURES: dict[str, FeatureKind] = {
 
 
 @dataclass(frozen=True, eq=False)
-class Feature:
+class MateFeature:
     """A point, a line or a plane of a part, in world coordinates of the assembled pose."""
 
     kind: FeatureKind
@@ -44,13 +44,13 @@ class Feature:
     """Whether it is the axis of a circle, which lies in a plane, too."""
 
     @staticmethod
-    def of(geometry: str, point: Vector, axis: Vector | None) -> Feature | None:
+    def of(geometry: str, point: Vector, axis: Vector | None) -> MateFeature | None:
         """Make the feature of some geometry as exporters name it; None for a kind that is not known."""
         kind = _FEATURES.get(geometry.strip().lower())
         if kind is None or (axis is None and kind != "point"):
             return None
         circle = geometry.strip().lower() == "circle"
-        return Feature(kind, point, np.array([0.0, 0.0, 1.0]) if axis is None else axis, circle)
+        return MateFeature(kind, point, np.array([0.0, 0.0, 1.0]) if axis is None else axis, circle)
 
 
 class MateSet(NamedTuple):
@@ -63,7 +63,7 @@ class MateSet(NamedTuple):
     """Whether the chain begins at the second part."""
 
 
-def mate(tag: str, one: Feature, other: Feature, angle: float, length: float) -> MateSet | None:
+def mate(tag: str, one: MateFeature, other: MateFeature, angle: float, length: float) -> MateSet | None:
     """Find the displacements that a mate allows, by the name that exporters give to it; None if it is not understood.
 
     The features keep what they have at the assembled pose. Directions within `angle` (radians) are parallel, or
@@ -84,7 +84,7 @@ def mate(tag: str, one: Feature, other: Feature, angle: float, length: float) ->
     return None
 
 
-def _circle_in_plane(one: Feature, other: Feature, angle: float, length: float) -> MateSet | None:
+def _circle_in_plane(one: MateFeature, other: MateFeature, angle: float, length: float) -> MateSet | None:
     """Find the displacements of a circle on a circle, or in a plane; None for other features."""
     flat = [feature.circle or feature.kind == "plane" for feature in (one, other)]
     if not all(flat) or not (one.circle or other.circle) or not _parallel(one, other, angle):
@@ -102,25 +102,25 @@ _ALONE = {kind: movement for kind, movement in LOWER_PAIRS.values()}
 """Kinds of lower pairs -> their movements."""
 
 
-def _plane_plane(one: Feature, other: Feature, angle: float, _: float) -> Found:
+def _plane_plane(one: MateFeature, other: MateFeature, angle: float, _: float) -> Found:
     if not _parallel(one, other, angle):
         return None
     return _state("a", frame(one.point, one.axis))
 
 
-def _plane_line(plane: Feature, line: Feature, angle: float, _: float) -> Found:
+def _plane_line(plane: MateFeature, line: MateFeature, angle: float, _: float) -> Found:
     if abs(float(plane.axis @ line.axis)) > angle:
         return None
     frames = frame(_on_plane(plane, line.point), plane.axis), frame(line.point, line.axis)
     return _state("b", *frames)
 
 
-def _plane_point(plane: Feature, point: Feature, _angle: float, _length: float) -> Found:
+def _plane_point(plane: MateFeature, point: MateFeature, _angle: float, _length: float) -> Found:
     frames = frame(_on_plane(plane, point.point), plane.axis), frame(point.point, plane.axis)
     return _state("d", *frames)
 
 
-def _line_line(one: Feature, other: Feature, angle: float, length: float) -> Found:
+def _line_line(one: MateFeature, other: MateFeature, angle: float, length: float) -> Found:
     first, second = frame(one.point, one.axis), frame(other.point, other.axis)
     if _parallel(one, other, angle):
         if np.linalg.norm(_away(one, other.point)) <= length:
@@ -132,13 +132,13 @@ def _line_line(one: Feature, other: Feature, angle: float, length: float) -> Fou
     return _state("g", first, between, second)
 
 
-def _line_point(line: Feature, point: Feature, _: float, length: float) -> Found:
+def _line_point(line: MateFeature, point: MateFeature, _: float, length: float) -> Found:
     on_line = np.linalg.norm(_away(line, point.point)) <= length
     frames = frame(line.point, line.axis), frame(point.point, line.axis)
     return _state("j", *frames, region="circle" if on_line else None)
 
 
-def _point_point(one: Feature, other: Feature, _: float, length: float) -> Found:
+def _point_point(one: MateFeature, other: MateFeature, _: float, length: float) -> Found:
     offset = other.point - one.point
     if (apart := float(np.linalg.norm(offset))) <= length:
         return _state("o", frame(one.point, one.axis))
@@ -157,7 +157,7 @@ _DISTANCES = {
 """Kinds of the two features, in this order -> their displacements where their distance stays."""
 
 
-def _angle_kept(one: Feature, other: Feature, angle: float) -> Chain:
+def _angle_kept(one: MateFeature, other: MateFeature, angle: float) -> Chain:
     """Find the displacements that keep an angle: all translations, and the turns about both axes (one if parallel)."""
     first, second = frame(one.point, one.axis), frame(one.point, other.axis)
     kinds, frames = [JointKind.PLANAR, JointKind.PRISMATIC], [first, first]
@@ -173,16 +173,16 @@ def _state(letter: str, *frames: Pose, region: str | None = None) -> tuple[Chain
     return Chain(movements, np.stack(frames)), JointKind(pair) if pair else JointKind.of_state(letter)
 
 
-def _parallel(one: Feature, other: Feature, angle: float) -> bool:
+def _parallel(one: MateFeature, other: MateFeature, angle: float) -> bool:
     return bool(np.linalg.norm(np.cross(one.axis, other.axis)) <= angle)
 
 
-def _on_plane(plane: Feature, point: Vector) -> Vector:
+def _on_plane(plane: MateFeature, point: Vector) -> Vector:
     """Project a point onto a plane."""
     return point - float((point - plane.point) @ plane.axis) * plane.axis
 
 
-def _away(line: Feature, point: Vector) -> Vector:
+def _away(line: MateFeature, point: Vector) -> Vector:
     """Compute the offset of a point from a line."""
     offset = point - line.point
     return offset - (offset @ line.axis) * line.axis

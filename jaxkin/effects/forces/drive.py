@@ -29,7 +29,7 @@ from jaxkin.effects.forces.wrenches import (
     Acting,
     ActingNumbers,
     Loads,
-    Moving,
+    MovingParts,
     Wrench,
     acting_numbers,
     acting_on,
@@ -235,7 +235,7 @@ def _in_motion(
 
     def of_group(given: tuple[Int[Array, " poses"], Changes, Inputs], acting: ActingNumbers) -> tuple[Inputs, Inputs]:
         status, found, rates = given
-        moving = Moving.of(linkage, found, chords=False)
+        moving = MovingParts.of(linkage, found, chords=False)
         all_loads = loads(linkage, unit, acting, moving)
         return _forces(drive, unit, linkage, status, moving, all_loads, {}, found.along, rates)
 
@@ -248,7 +248,7 @@ def _forces(
     unit: str,
     linkage: Linkage,
     status: Int[Array, " poses"],
-    moving: Moving,
+    moving: MovingParts,
     all_loads: Loads,
     frictional: dict[int, Wrench],
     along: dict[str, ByCoordinate],
@@ -278,7 +278,7 @@ def _by_coordinate(
     unit: str,
     all_loads: Loads,
     frictional: dict[int, Wrench],
-    moving: Moving,
+    moving: MovingParts,
     sent: dict[int, Wrench],
 ) -> dict[JointCoordinate, Float[Array, " poses"]]:
     """Compute the generalised force that balances all loads for each (joint, coordinate): joules per radian, or per

@@ -34,7 +34,7 @@ from jaxkin.effects.forces.friction_of import FRICTION_OF
 from jaxkin.effects.forces.friction_result import Friction
 from jaxkin.effects.forces.given import JointFriction
 from jaxkin.effects.forces.screws import Twist, cross, relative_twist, velocity_at
-from jaxkin.effects.forces.wrenches import Loads, Moving
+from jaxkin.effects.forces.wrenches import Loads, MovingParts
 from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.geometry.units import METRES
 from jaxkin.joints.joint import JointCoordinate
@@ -66,7 +66,7 @@ class Sliding(NamedTuple):
 
 
 def friction(
-    motion: Motion, drive: KnownDrive, moving: Moving, all_loads: Loads, given: Sequence[JointFriction]
+    motion: Motion, drive: KnownDrive, moving: MovingParts, all_loads: Loads, given: Sequence[JointFriction]
 ) -> tuple[dict[int, Twist], Friction | None]:
     """Find the wrench of friction on part 2 of each joint, by its number, about the middle; none where none is given.
 
@@ -89,7 +89,12 @@ def friction(
 
 @partial(whole_program, static=(0, 1))
 def _solved(
-    drive: KnownDrive, unit: str, linkage: Linkage, moving: Moving, all_loads: Loads, given: tuple[JointFriction, ...]
+    drive: KnownDrive,
+    unit: str,
+    linkage: Linkage,
+    moving: MovingParts,
+    all_loads: Loads,
+    given: tuple[JointFriction, ...],
 ) -> tuple[dict[int, Twist], Bool[Array, " poses"], tuple[list[Array], ...]]:
     """Compute the wrenches of friction, whether poses lock, and for each joint N, mu N, watts, and whether it rests."""
     names = [joint.name for joint in linkage.joints]
@@ -107,13 +112,13 @@ def _solved(
     return wrenches, locked, (list(normal), limits, losses, [slide.rests for slide in slides])
 
 
-def _twist_in(linkage: Linkage, moving: Moving, number: int) -> Twist:
+def _twist_in(linkage: Linkage, moving: MovingParts, number: int) -> Twist:
     """Compute the twist of part 2 of a joint relative to part 1, about the middle."""
     rates = moving.velocity[number] if moving.velocity else jnp.zeros_like(moving.displacements[number])
     return relative_twist(linkage.joints[number], moving.at.joints[number], rates, moving.at.scale)
 
 
-def _sliding(linkage: Linkage, moving: Moving, number: int, given: JointFriction) -> Sliding:
+def _sliding(linkage: Linkage, moving: MovingParts, number: int, given: JointFriction) -> Sliding:
     """Find how the faces of a joint slide on each other."""
     arm, scale = moving.at.joints[number].point, moving.at.scale
     twist = _twist_in(linkage, moving, number)
@@ -138,7 +143,7 @@ def _pressing(
     drive: KnownDrive,
     unit: str,
     linkage: Linkage,
-    moving: Moving,
+    moving: MovingParts,
     all_loads: Loads,
     given: Sequence[JointFriction],
     numbers: Sequence[int],
@@ -186,7 +191,7 @@ def _pressing(
 
 def _pressed(
     linkage: Linkage,
-    moving: Moving,
+    moving: MovingParts,
     number: int,
     given: JointFriction,
     wrench: Twist,

@@ -30,7 +30,7 @@ from jaxkin.effects.forces.wrenches import (
     Acting,
     ActingNumbers,
     Loads,
-    Moving,
+    MovingParts,
     Wrench,
     acting_numbers,
     acting_on,
@@ -215,7 +215,7 @@ def _without_friction(
         given: tuple[Int[Array, " poses"], Changes], acting: ActingNumbers
     ) -> tuple[Rows, Rows, Rows, Inputs, Rows]:
         status, found = given
-        moving = Moving.of(linkage, found, chords=True)
+        moving = MovingParts.of(linkage, found, chords=True)
         return _balanced(drive, unit, linkage, status, moving, loads(linkage, unit, acting, moving), {})
 
     return by_groups(of_group, (status, found), acting)
@@ -227,7 +227,7 @@ def _balanced(
     unit: str,
     linkage: Linkage,
     status: Int[Array, " poses"],
-    moving: Moving,
+    moving: MovingParts,
     all_loads: Loads,
     frictional: dict[int, Wrench],
 ) -> tuple[Rows, Rows, Rows, Inputs, Rows]:

@@ -69,7 +69,7 @@ class ActingNumbers(NamedTuple):
     applied: tuple[Load, ...]
 
 
-class Moving(NamedTuple):
+class MovingParts(NamedTuple):
     """Where the parts are, and how they move."""
 
     at: Places
@@ -82,26 +82,28 @@ class Moving(NamedTuple):
     """Their derivatives."""
 
     @staticmethod
-    def of(linkage: Linkage, found: Changes, chords: bool) -> Moving:
+    def of(linkage: Linkage, found: Changes, chords: bool) -> MovingParts:
         """Place the parts, and find their twists."""
         at = places(linkage, found.displacements, chords)
         if found.velocity is None:
-            return Moving(at, found.displacements, None, {}, {})
+            return MovingParts(at, found.displacements, None, {}, {})
         twists = twists_of_parts(linkage, at, found.velocity, found.acceleration)
-        return Moving(at, found.displacements, found.velocity, *twists)
+        return MovingParts(at, found.displacements, found.velocity, *twists)
 
 
 @partial(whole_program, static=(0, 1))
-def acting_on(unit: str, chords: bool, linkage: Linkage, found: Changes, acting: ActingNumbers) -> tuple[Moving, Loads]:
+def acting_on(
+    unit: str, chords: bool, linkage: Linkage, found: Changes, acting: ActingNumbers
+) -> tuple[MovingParts, Loads]:
     """Place the parts, and find all that acts on them; with `chords`, place all joints and not only those of the tree.
 
     This is a program of its own: XLA would compute parts of the derivatives anew wherever they are used.
     """
-    moving = Moving.of(linkage, found, chords)
+    moving = MovingParts.of(linkage, found, chords)
     return moving, loads(linkage, unit, acting, moving)
 
 
-def loads(linkage: Linkage, unit: str, acting: ActingNumbers, moving: Moving) -> Loads:
+def loads(linkage: Linkage, unit: str, acting: ActingNumbers, moving: MovingParts) -> Loads:
     """Find all that acts in each pose, inertia and dampers where the parts move."""
     found: dict[str, Any] = {}
     lever = moving.at.scale.size * METRES[unit]
@@ -120,7 +122,7 @@ def loads(linkage: Linkage, unit: str, acting: ActingNumbers, moving: Moving) ->
     return Loads(found, in_joints)
 
 
-def _of_mass(moving: Moving, masses: Masses, gravity: Any, part: str, lever: Any) -> Wrench:
+def _of_mass(moving: MovingParts, masses: Masses, gravity: Any, part: str, lever: Any) -> Wrench:
     """Compute weight and inertia of a part: the force m (g - a) at its centre, the torque -(I w' + w x I w)."""
     number = masses.parts.index(part)
     mass, arm = masses.mass[number], moving.at.point(part, masses.centre[number])
@@ -220,7 +222,7 @@ def _vector(values: Any) -> Float[Array, "3 _"]:
     return values[:, None] if values.ndim == 1 else values.T
 
 
-def _on_parts(moving: Moving, load: Force | Torque | Spring, lever: Any):
+def _on_parts(moving: MovingParts, load: Force | Torque | Spring, lever: Any):
     """Yield parts and the wrenches of a load on them."""
     if isinstance(load, Spring):
         yield from _of_spring(moving, load, lever)
@@ -235,7 +237,7 @@ def _on_parts(moving: Moving, load: Force | Torque | Spring, lever: Any):
         yield load.part, jnp.concatenate([vector / lever, jnp.zeros_like(vector)])
 
 
-def _of_spring(moving: Moving, load: Spring, lever: Any):
+def _of_spring(moving: MovingParts, load: Spring, lever: Any):
     """Yield the two parts of a spring and its wrenches on them."""
     ends = [moving.at.point(part, point) for part, point in zip(load.parts, load.points, strict=True)]
     apart = lever * (ends[1] - ends[0])
@@ -268,7 +270,7 @@ def _loaded(linkage: Linkage, load: JointLoad) -> JointCoordinate:
 
 
 def _in_joint(
-    linkage: Linkage, unit: str, moving: Moving, load: JointLoad
+    linkage: Linkage, unit: str, moving: MovingParts, load: JointLoad
 ) -> tuple[JointCoordinate, Float[Array, " poses"]]:
     """Compute a load in a coordinate, newton metres or newtons: load - stiffness (q - rest) - damping q'."""
     joint, index = _loaded(linkage, load)

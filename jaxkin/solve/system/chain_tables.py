@@ -77,7 +77,7 @@ class ChainEnds(NamedTuple):
     """+1, or -1 if that ball is travelled from part 2 to part 1; 0 if the loop is uncut."""
 
 
-class Chain(NamedTuple):
+class LoopChain(NamedTuple):
     """A chain of elementary motions, in order of travel."""
 
     rows: list[ChainRow]
@@ -211,7 +211,7 @@ def _no_row(system: LoopSystem) -> ChainRow:
     )
 
 
-def _chains(system: LoopSystem, loop: tuple[tuple[int, int], ...], cut: tuple[int, ...]) -> list[Chain]:
+def _chains(system: LoopSystem, loop: tuple[tuple[int, int], ...], cut: tuple[int, ...]) -> list[LoopChain]:
     """Make the chains of a loop that is cut at the balls `cut`: each runs from behind one ball to before the next one.
 
     An uncut loop is one chain.
@@ -219,13 +219,13 @@ def _chains(system: LoopSystem, loop: tuple[tuple[int, int], ...], cut: tuple[in
     rows = [row for joint, sign in loop for row in _joint_rows(system, joint, sign)]
     if not cut:
         no_frame = 2 * _frames(system)
-        return [Chain(rows, ChainEnds(no_frame, no_frame, len(system.balls), 0))]
+        return [LoopChain(rows, ChainEnds(no_frame, no_frame, len(system.balls), 0))]
     places = [number for number, row in enumerate(rows) if row.ball in cut]
     chains = []
     for place, following in zip(places, [*places[1:], places[0]], strict=True):
         ball = rows[place]
         between = rows[place + 1 : following] if place < following else rows[place + 1 :] + rows[:following]
-        chains.append(Chain(between, ChainEnds(ball.leave, rows[following].enter, ball.ball, ball.sign)))
+        chains.append(LoopChain(between, ChainEnds(ball.leave, rows[following].enter, ball.ball, ball.sign)))
     return chains
 
 
