@@ -30,7 +30,7 @@ MAX_CALLOUTS = 24
 
 
 def draw_contacts(sheet: Sheet, regions: Sequence[tuple[Region, Contact]], corner: Place) -> None:
-    """Lines, circles and points of contact; areas belong to the image. `corner` is where the image has its own."""
+    """Draw lines, circles and points of contact; areas belong to the image, whose place is `corner`."""
     for region, contact in regions:
         if not len(region.line):
             continue

@@ -32,7 +32,7 @@ class View:
     """Whether all parts move parallel to the picture."""
 
     def project(self, points: Points) -> Points:
-        """World coordinates to coordinates of the view (right, up, towards the viewer): same unit, same origin."""
+        """Turn world coordinates into those of the view (right, up, towards the viewer): same unit, same origin."""
         return points @ self.axes.T
 
 
@@ -66,7 +66,7 @@ def choose_view(parts: Sequence[Part], fixed: Sequence[str], displacements: Disp
 
 
 def move(displacements: Displacements, part: str, points: Points) -> Float[np.ndarray, "poses *points 3"]:
-    """World coordinates of points of a part, given where they are at the assembled pose, at all poses."""
+    """Place points of a part, given where they are in the assembled pose, at all poses: world coordinates."""
     pose = displacements[part]
     turned = np.einsum("pij,...j->p...i", pose[:, :3, :3], np.asarray(points, float))
     return turned + pose[:, :3, 3].reshape(-1, *(1,) * (turned.ndim - 2), 3)
@@ -77,7 +77,7 @@ def _corners(part: Part) -> Float[np.ndarray, "8 3"]:
 
 
 def _normal(parts: Sequence[Part], steps: Sequence[np.ndarray]) -> Vector | None:
-    """Normal of the plane that everything moves parallel to, None in space.
+    """Find the normal of the plane that everything moves parallel to; None in space.
 
     Where the motion leaves a choice (along one line, or none at all) it is the normal of most of the flat faces.
     """

@@ -76,7 +76,7 @@ def see_through(
 
 
 def _view(parts: Sequence[Part], fixed: Sequence[str]) -> View:
-    """Obliquely on the plane of most flat faces, from the corner that hides least of any part."""
+    """Choose a view obliquely on the plane of most flat faces, from the corner that hides least of any part."""
     still = {part.name: np.eye(4)[None] for part in parts}
     right, up, out = choose_view(parts, fixed, still).axes
     views = []

@@ -46,7 +46,7 @@ class Diagram(NamedTuple):
 
 
 def colors(count: int) -> list[Color]:
-    """Colours for loops that stay apart: those of a map for few, without its grey, hues for many."""
+    """Choose colours for loops that stay apart: those of a map for few, without its grey, hues for many."""
     from matplotlib import colormaps
     from matplotlib.colors import hsv_to_rgb
 
@@ -58,7 +58,7 @@ def colors(count: int) -> list[Color]:
 
 
 def places(diagram: Diagram, width: float) -> dict[str, np.ndarray]:
-    """Where the parts go, in inches about the middle of a drawing of some width.
+    """Choose where the parts go, in inches about the middle of a drawing of some width.
 
     Raises ValueError for more parts than a drawing can show.
     """
@@ -166,7 +166,7 @@ def lines_of(diagram: Diagram, at: Mapping[str, np.ndarray]) -> dict[int, Line]:
 
 
 def _aside(line: Line) -> Line:
-    """Where lanes beside a line are to be looked for, per inch: across it, but from the same part and to the same.
+    """Find where lanes beside a line are looked for, per inch: across it, but from the same part and to the same.
 
     Whichever way the line is travelled, it is the same side of the drawing.
     """

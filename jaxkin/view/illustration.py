@@ -42,7 +42,7 @@ class Canvas:
     width: int
 
     def pixels(self, points: Float[np.ndarray, "*batch 3"]) -> Float[np.ndarray, "*batch 3"]:
-        """World coordinates to pixels: to the right, downwards, towards the viewer."""
+        """Turn world coordinates into pixels: to the right, downwards, towards the viewer."""
         return (self.view.project(points) - self.corner) * [self.scale, -self.scale, self.scale]
 
 
@@ -99,7 +99,7 @@ def compose(fixed: Layer, moving: Layer, ghost: Layer) -> UInt8[np.ndarray, "hei
 
 
 def _edges(raster: Raster, owners: np.ndarray, normal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Pixels at the border of two parts, and those where one part has a crease or a step; both sides of each."""
+    """Find pixels at the border of two parts, and where one part has a crease or a step; both sides of each."""
     outline, crease = np.zeros(raster.triangle.size, bool), np.zeros(raster.triangle.size, bool)
     places = np.arange(raster.triangle.size).reshape(raster.triangle.shape)
     face, depth = raster.triangle.ravel(), raster.depth.ravel()

@@ -158,7 +158,7 @@ def _joint(joint: Joint, mechanism: Mechanism, index: Mapping[str, int]) -> dict
 def _notes(
     found: Mechanism | Assembly, index: Mapping[str, int], tried: Sequence[str], contacts: Contacts | None
 ) -> list[dict]:
-    """Assumptions and remarks by their kind, each with the parts that it names, and the joint where it is of one."""
+    """List assumptions and remarks by kind, each with the parts that it names, and the joint where it is of one."""
     if isinstance(found, Mechanism):
         texts, joints, solids = found.notes, found.all_joints, found.solids
     else:

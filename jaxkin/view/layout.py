@@ -25,7 +25,7 @@ Points = Float[np.ndarray, "nodes 2"]
 
 
 def layout(nodes: Sequence[N], pairs: Sequence[tuple[N, N]]) -> dict[N, Float[np.ndarray, "2"]]:
-    """Places of the nodes, in a box of larger side 1 about the origin, wider than high; the same at every call."""
+    """Place the nodes in a box of larger side 1 about the origin, wider than high; alike at every call."""
     import networkx as nx
 
     graph = nx.Graph()
@@ -61,14 +61,14 @@ def _best(graph: Graph) -> Points:
 
 
 def _scaled(places: dict[int, np.ndarray], edges: Int[np.ndarray, "edges 2"]) -> Points:
-    """With lines of length 1 on average."""
+    """Scale places so that lines have a length of 1 on average."""
     points = np.array([places[k] for k in range(len(places))])
     lengths = np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1)
     return points / (lengths.mean() if len(lengths) else 1.0)
 
 
 def _improved(points: Points, edges: Int[np.ndarray, "edges 2"]) -> Points:
-    """Each node in turn goes to the best of some places around it, in rounds that reach less and less far."""
+    """Move each node in turn to the best of some places around it, in rounds that reach less and less far."""
     random = np.random.default_rng(0)
     points = points.copy()
     for reach in np.geomspace(1.5, 0.02, IMPROVEMENT_ROUNDS):
@@ -113,5 +113,5 @@ def _cross(a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray) -> np.nda
 
 
 def _side(p: np.ndarray, q: np.ndarray, r: np.ndarray) -> np.ndarray:
-    """Above zero where r lies to the left of the line from p to q."""
+    """Measure on which side of the line from p to q r lies: above zero to the left."""
     return (q[..., 0] - p[..., 0]) * (r[..., 1] - p[..., 1]) - (q[..., 1] - p[..., 1]) * (r[..., 0] - p[..., 0])

@@ -85,7 +85,7 @@ def _problem(status: Status) -> str:
 
 
 def _body(name: str, scene: Scene, shown: np.ndarray, centre: np.ndarray, scale: float, color: Color) -> dict:
-    """Parts that move as one: one row of the legend, and one displacement a pose."""
+    """Describe parts that move as one: one row of the legend, and one displacement a pose."""
     poses = scene.displacements[name][shown, :3, :].copy()
     poses[..., 3] += poses[..., :3] @ centre - centre
     poses[..., 3] /= scale

@@ -58,7 +58,7 @@ def rasterise(triangles: Float[np.ndarray, "triangles 3 3"], height: int, width:
 
 
 def normals(triangles: Float[np.ndarray, "triangles 3 3"]) -> Float[np.ndarray, "triangles 3"]:
-    """Unit normals turned towards the viewer (z >= 0); zero for a triangle without area."""
+    """Compute unit normals, turned towards the viewer (z >= 0); zero for a triangle without area."""
     cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     length = np.linalg.norm(cross, axis=1, keepdims=True)
     return cross * np.where(cross[:, 2:] < 0, -1, 1) / np.where(length > 0, length, 1)

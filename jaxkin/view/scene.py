@@ -57,7 +57,7 @@ class Scene:
     """Lowest and highest coordinates in the view, to the right, up and towards the viewer, of all that is drawn."""
 
     def moved(self, part: Part, points: Points, poses: Sequence[int] | np.ndarray) -> Float[np.ndarray, "poses *n 3"]:
-        """World coordinates of points of a part at some poses, given where they are in the assembled pose."""
+        """Place points of a part, given where they are in the assembled pose, at some poses: world coordinates."""
         return move({part.name: self.displacements[part.name][np.asarray(poses)]}, part.name, points)
 
 

@@ -34,7 +34,7 @@ class Sheet(NamedTuple):
     height: int
 
     def place(self, index: int) -> tuple[int, int]:
-        """Left and top of a panel with its caption."""
+        """Find left and top of a panel with its caption."""
         row, column = divmod(index, self.columns)
         return MARGIN + column * (self.canvas.width + GAP), HEAD + row * (self.canvas.height + CAPTION + GAP)
 

@@ -86,7 +86,7 @@ def storyboard(
 
 
 def _choose(scene: Scene) -> list[int]:
-    """Up to PANELS closed poses, evenly over the range; of a motion that returns to its start the end is left out.
+    """Choose up to PANELS closed poses, evenly over the range; not the end of a motion that returns to its start.
 
     If contacts are lost between them only, the nearest of them makes room for the middle of the poses where they are.
     """
@@ -162,7 +162,7 @@ def _paths(sheet: Sheet, left: int, top: int, scene: Scene, pose: int) -> None:
 
 
 def _lost(sheet: Sheet, left: int, top: int, scene: Scene, pose: int) -> None:
-    """Where the faces that a joint has left were on each other, on either part, over a panel."""
+    """Mark over a panel where the faces that a joint has left were on each other, on either part."""
     for mark in scene.lost:
         if mark.shown[pose]:
             x, y = sheet.canvas.pixels(mark.ends[:, pose])[:, :2].T + np.array([[left], [top]])

@@ -48,7 +48,7 @@ def plot_structure(diagram: Diagram) -> Figure:
     figure = Figure(figsize=(width, height), dpi=DPI, facecolor="white")
 
     def drawing(x: float, wide: float, centre: Place) -> Axes:
-        """Axes in inches, with a point in their middle."""
+        """Make axes in inches, with a point in their middle."""
         axes = figure.add_axes((x / width, foot / height, wide / width, high / height))
         axes.set_xlim(centre[0] - wide / 2, centre[0] + wide / 2)
         axes.set_ylim(centre[1] - high / 2, centre[1] + high / 2)

@@ -46,7 +46,7 @@ def given_marks(points: Mapping[str, object], parts: Sequence[str]) -> Marks:
 
 
 def default_marks(mechanism: Mechanism, parts: Sequence[Part], view: View, displacements: Displacements) -> Marks:
-    """Centres of the joints that move, and the point farthest from the joints of every part that they leave out.
+    """Find the centres of the joints that move, and of each part that they leave out the point farthest from them.
 
     A joint has a centre if the origin of its frame stays together on both parts. A part is left out if no such path
     is drawn on it, or if it is joined to no fixed part (a coupler: its motion is not that of its joints).

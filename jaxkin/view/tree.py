@@ -37,7 +37,7 @@ class Box:
 
 
 def boxes(diagram: Diagram) -> tuple[Box, ...]:
-    """Where the elements go: leaves side by side, all others over the middle of what hangs on them."""
+    """Place the elements: leaves side by side, all others over the middle of what hangs on them."""
     elements = diagram.elements
     hanging: list[dict[str, list[int]]] = [{} for _ in elements]
     level = [0] * len(elements)
@@ -97,7 +97,7 @@ def _height(element: StructureElement) -> float:
 
 
 def _lower(box: Box, part: str) -> float:
-    """Where a lower adjacent part stands in its element, across."""
+    """Find where a lower adjacent part stands in its element, across."""
     widths = [_name_width(name) + 0.06 for name in box.lower]
     k = box.lower.index(part)
     return box.x - sum(widths) / 2 + sum(widths[:k]) + widths[k] / 2
@@ -112,7 +112,7 @@ def _tie(axes: Axes, start: Place, box: Box, element: StructureElement) -> None:
 
 
 def _tied(element: StructureElement) -> str:
-    """By what an element hangs on the one above."""
+    """Name what an element hangs by on the one above."""
     return element.joint or f"at {element.upper}"
 
 

@@ -38,7 +38,7 @@ def part_entries(
     centre: Float[np.ndarray, "3"],
     scale: float,
 ) -> list[dict]:
-    """Meshes of all parts, lightened together, each with its colour and the index of its body.
+    """List the meshes of all parts, lightened together, each with its colour and the index of its body.
 
     Lengths are over `scale` about `centre`, so that float32 is enough in any unit.
     """
@@ -56,7 +56,7 @@ def rounded(color: Color) -> list[float]:
 
 
 def encoded(array: np.ndarray, kind: str = "<f4") -> str:
-    """Numbers as base64, little-endian."""
+    """Encode numbers as base64, little-endian."""
     return b64encode(np.ascontiguousarray(array, dtype=kind).tobytes()).decode("ascii")
 
 
