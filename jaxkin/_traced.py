@@ -26,6 +26,6 @@ _unchanged = jax.jit(lambda array: array)
 
 @cache
 def _known_array() -> jax.Array:
-    """An array that is never traced. It is kept: to make one takes six times as long as to ask what becomes of it."""
+    """Make an array that is never traced, and keep it: that takes six times as long as to ask what becomes of it."""
     with jax.ensure_compile_time_eval():
         return jax.device_put(np.zeros(0))

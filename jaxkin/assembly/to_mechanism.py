@@ -149,7 +149,7 @@ def _joined(
     combine: bool,
     align: float | int | None,
 ) -> Mechanism:
-    """Parts with some joints, joined by contacts as well, all free of noise, and what only spins left at rest."""
+    """Join parts by some joints and by contacts, all free of noise, and leave at rest what only spins."""
     parts, fixed = begun.parts, begun.fixed
     found = joints_from_contacts(contacts, parts, combine, noise, body, begun.joints)
     structured = structure(parts, [(each.name, *each.parts) for each in found.joints], fixed)
@@ -213,7 +213,7 @@ def _aligned(found: FoundJoints, unit: str) -> list[str]:
 
 
 def _told(contacts: Sequence[Contact]) -> tuple[str, ...]:
-    """Near misses and refusals of the detection, where the contacts are a whole result of it."""
+    """Tell near misses and refusals of the detection, where the contacts are a whole result of it."""
     return (*map(str, contacts.near_misses), *contacts.notes) if isinstance(contacts, Contacts) else ()
 
 

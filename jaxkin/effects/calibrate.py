@@ -108,7 +108,7 @@ def calibrate(
 
 @partial(jax.jit, static_argnums=0)
 def _residuals(model: Model, mechanism: Mechanism, inputs, values, weights, nominal, axes, changes):
-    """Weighted residuals, their derivatives by the changes of the unknowns, and which poses are on the branch."""
+    """Compute weighted residuals, their derivatives by the unknowns, and which poses are on the branch."""
 
     def rows(numbers: Float[Array, " unknowns"]):
         found, markers = model.unknowns.applied(mechanism, nominal, axes, numbers)
@@ -137,7 +137,7 @@ def _result(
     found: Fit,
     sigma: Any,
 ) -> Calibration:
-    """Covariance and directions that are not told, from the Jacobian at the end of the fit."""
+    """Make the result: covariance, and directions that are not told, from the Jacobian at the end of the fit."""
     singular, directions, rest = told(found.jacobian)
     if not len(singular):
         raise ValueError("the measured values do not depend on any of the unknowns: they tell nothing about them")

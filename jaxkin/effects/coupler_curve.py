@@ -158,7 +158,7 @@ def _largest_coordinate(motion: Motion, points: Float[np.ndarray, "poses 3"]) ->
 
 
 def _axes(points: Float[np.ndarray, "poses 3"]) -> tuple[Float[np.ndarray, "2 3"], bool]:
-    """Axes along which points extend most, and whether they extend along these only.
+    """Find two axes along which points extend most, and whether they extend along these only.
 
     Axes of the world are kept where the points lie in a plane of two of them, so that pictures stand upright.
     """

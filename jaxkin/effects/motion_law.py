@@ -131,7 +131,7 @@ class MotionLaw:
         return np.linspace(0.0, self.duration, whole_number(poses, "poses"))
 
     def __call__(self, times: Any, order: int = 0) -> Float[Array, "*times"]:
-        """Displacements at one time or some, or with `order` 1, 2, 3 their velocities, accelerations, jerks.
+        """Evaluate displacements at one time or some, or with `order` 1, 2, 3 velocities, accelerations, jerks.
 
         Where a derivative jumps between two segments it is that of the later one.
         """

@@ -250,7 +250,7 @@ def _add(
 
 
 def _shaded(field: Float[np.ndarray, "right up towards"], from_above: bool) -> Float[np.ndarray, "right up"]:
-    """Brightness of the surface that is seen first along the last axis; NaN where nothing is seen."""
+    """Shade the surface that is seen first along the last axis: its brightness; NaN where nothing is seen."""
     field = field[:, :, ::-1] if from_above else field
     inside = field < 0
     at = np.argmax(inside, axis=2)

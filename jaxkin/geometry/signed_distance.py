@@ -73,7 +73,7 @@ def _unravel(index: np.ndarray, shape: np.ndarray) -> np.ndarray:
 
 
 def _to_triangles(points: Float[np.ndarray, "n 3"], triangles: Float[np.ndarray, "n 3 3"]) -> Float[np.ndarray, " n"]:
-    """Distance of each point from its triangle: from the plane above it, else from the nearest edge."""
+    """Measure how far each point is from its triangle: from the plane above it, else from the nearest edge."""
     nearest = np.full(len(points), np.inf)
     edges = np.roll(triangles, -1, axis=1) - triangles
     normals = np.cross(edges[:, 0], edges[:, 1])

@@ -122,7 +122,7 @@ def _finish(tree: dict[str, Any], primitive: dict[str, Any], material: int) -> N
 
 
 def _material(part: Part) -> dict[str, Any]:
-    """Slightly shiny; seen from both sides, since a mesh may be wound the wrong way."""
+    """Make a material: slightly shiny; seen from both sides, since a mesh may be wound the wrong way."""
     screen = np.array(part.color)
     linear = np.where(screen <= 0.04045, screen / 12.92, ((screen + 0.055) / 1.055) ** 2.4)  # glTF wants sRGB undone
     surface = {"baseColorFactor": [*linear.tolist(), 1.0], "metallicFactor": 0.1, "roughnessFactor": 0.6}
@@ -130,7 +130,7 @@ def _material(part: Part) -> dict[str, Any]:
 
 
 def _root_matrix(unit: str, middle: Float[np.ndarray, "3"]) -> list[float]:
-    """Moves the middle of the mechanism, which the nodes count from, to its place; turns z up; goes to metres."""
+    """Move the middle of the mechanism, which the nodes count from, to its place; turn z up; go to metres."""
     root = np.eye(4)
     root[:3, :3] = _UP * METRES[unit]
     root[:3, 3] = root[:3, :3] @ middle

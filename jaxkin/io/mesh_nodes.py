@@ -79,7 +79,7 @@ def read_several(paths: Iterable[Path], seconds: float | None = None) -> dict[Pa
 
 
 def _binary_stl(path: Path) -> list[Node]:
-    """Records of 50 bytes after the header, each a normal, three corners and two bytes of no meaning here.
+    """Read records of 50 bytes after the header, each a normal, three corners and two bytes of no meaning here.
 
     The commonest of all mesh files, one for every part; to start trimesh takes longer than to read a hundred of them.
     """

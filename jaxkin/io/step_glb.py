@@ -105,7 +105,7 @@ def instances(glb: bytes, products: Mapping[str, str] | None = None) -> Iterator
 def _inside(
     tree: dict[str, Any], nodes: list[int], path: tuple[str, ...], products: Mapping[str, str]
 ) -> list[tuple[int, tuple[str, ...]]]:
-    """Each of some nodes side by side, and the path of what is in it: names that come again are numbered."""
+    """Yield some nodes side by side, each with the path of what is in it: names that come again are numbered."""
     given = [tree["nodes"][node].get("name", "") for node in nodes]
     names = unique(cleaned(products.get(name, name)) or "assembly" for name in given)
     return [(node, (*path, name)) for node, name in zip(nodes, names, strict=True)]

@@ -49,7 +49,7 @@ def uncertainty(text: str) -> float:
 
 
 def _metres(units: Mapping[str, str], number: str, depth: int = 0) -> float | None:
-    """None where it is not said, or makes no sense."""
+    """Find how many metres a unit has; None where that is not said, or makes no sense."""
     said = units.get(number, "")
     if si := re.search(r"SI_UNIT\s*\(\s*(?:\.(\w+)\.|\$)\s*,\s*\.METRE\.", said):
         return _PREFIXES.get(si[1]) if si[1] else 1.0

@@ -49,7 +49,7 @@ def _follower(joint: Joint) -> str:
 
 
 def _radius(joint: Joint) -> float | None:
-    """The radius of a ball or a roller; None for a point, and for other followers."""
+    """Find the radius of a ball or a roller; None for a point, and for other followers."""
     if isinstance(patch := _curve(joint, 0), Patch):
         return None if patch.height is None else abs(float(patch.height))
     return _beside(joint) if _follower(joint) == FOLLOWERS[1] else None
@@ -61,7 +61,7 @@ def _beside(joint: Joint) -> float:
 
 
 def _on_part2(joint: Joint) -> Pose:
-    """The axes of the second profile, or the frame of the follower."""
+    """Find the axes of the second profile, or the frame of the follower."""
     if joint.kind is JointKind.CURVE_ON_CURVE:
         return axes_of(joint, 1)
     return np.asarray(joint.frames_1, float)[-1]

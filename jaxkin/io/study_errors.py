@@ -65,7 +65,7 @@ def _unknown(loc: Sequence[str | int], place: str, keys: Mapping[tuple[str, ...]
 
 
 def _misplaced(loc: Sequence[str | int], keys: Mapping[tuple[str, ...], Sequence[str]]) -> str:
-    """In TOML, keys of the whole file that come after a table belong to that table: the usual slip."""
+    """Tell of keys of the whole file that come after a table, to which TOML says that they belong: the usual slip."""
     key = str(loc[-1])
     return (
         f"; if {key} is meant for the whole file, write it above the first [table]"

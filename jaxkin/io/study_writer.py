@@ -182,7 +182,7 @@ def _keys(joint: Joint) -> tuple[str, dict[str, object]]:
 
 
 def _direction(joint: Joint, pose: Pose) -> list[float] | None:
-    """The direction of a straight slot, or of x of a profile."""
+    """Find the direction of a straight slot, or of x of a profile."""
     if joint.curves:
         return axes_of(joint)[:3, 0].tolist()
     return pose[:3, 2].tolist() if MOVEMENTS[joint.movements[0]].only_slides else None
@@ -205,7 +205,7 @@ where it was not given."""
 
 
 def _pin(joint: Joint) -> Pose:
-    """The last frame of a joint: that of the pin in a slot, and the only one of most joints."""
+    """Take the last frame of a joint: that of the pin in a slot, and the only one of most joints."""
     return np.asarray(joint.frames_1, float)[-1]
 
 

@@ -46,7 +46,7 @@ class Coupling:
     if any will do."""
 
     def __str__(self) -> str:
-        """The equation: "2 A.phi - B.phi = 0"."""
+        """Write the equation: "2 A.phi - B.phi = 0"."""
         if traced(self.coefficients, self.offset):
             return " ~ ".join(self.coordinates)
         rows = zip(self.coordinates, np.asarray(self.coefficients), strict=True)

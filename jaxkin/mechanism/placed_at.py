@@ -79,7 +79,7 @@ def placed_at(
 
 
 def part_places(linkage: Linkage, coordinates: Sequence[Float[np.ndarray, " _"]]) -> dict[str, Place]:
-    """Displacements of all parts, in world coordinates, from those of all joints along the tree of the structure."""
+    """Compute displacements of all parts, in world coordinates, from those of all joints along the tree."""
     places = {part: np.eye(4) for part in linkage.fixed}
     for part, parent, index, sign in linkage.structure.tree:
         step = _displacement(linkage.joints[index], coordinates[index])

@@ -128,7 +128,8 @@ def _turns(linkage: Linkage, aims: Sequence[Aim]) -> list[bool]:
 def _evaluated(
     linkage: Linkage, parts: tuple[str, ...], units: tuple[float, ...], x: Float[Array, "poses columns"]
 ) -> tuple[Array, Array, Array, Array]:
-    """Closure equations (poses, equations), their Jacobian, transforms of parts (poses, parts, 4, 4), their rates."""
+    """Evaluate closure equations (poses, equations), their Jacobian, transforms of parts (poses, parts, 4, 4), and the
+    derivatives of these."""
     places = [(k, c) for k, joint in enumerate(linkage.joints) for c in range(joint.freedoms)]
     numbers = [linkage.parts.index(part) for part in parts]
 
