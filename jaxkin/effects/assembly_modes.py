@@ -214,7 +214,7 @@ def assembly_modes(
     starts, searched = Starts(tries, seed, options), []
     for loop_group in plan.loop_groups:
         number = linkage.structure.loop_groups.index(loop_group.members)
-        loops = ClosedLoops(linkage.joints, linkage.structure, loop_group.members, linkage.couplings)
+        loops = ClosedLoops.of(linkage, loop_group.members)
         features = PoseFeatures(loops, len(loop_freedoms(linkage)[number].motions) - len(loop_group.inputs))
         if reached is None:
             home = np.zeros(len(loop_group.columns)), loops.travel(np.zeros(len(loops.columns))).residual_norm

@@ -51,8 +51,7 @@ class Extended:
         self.mp.dps = DIGITS
         self.loop_group, self.free = loop_group, list(free)
         self.joints = {index: mechanism.all_joints[index] for index in loop_group.joints}
-        linkage = mechanism.linkage
-        self.loops = ClosedLoops(linkage.solved_joints, mechanism.structure, loop_group, linkage.couplings)
+        self.loops = ClosedLoops.of(mechanism.linkage, loop_group)
 
     def closed(self, q: Row) -> tuple[Row, bool]:
         """Find the exact pose near `q` with the same driven coordinates; returns it rounded, and whether it converged.

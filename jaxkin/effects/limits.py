@@ -141,7 +141,7 @@ def limits(
 
 def _curve(linkage: Linkage, group: LoopGroup, driven: Sequence[JointCoordinate]) -> MotionCurve:
     """Make the curve along which the first of `driven` moves the loops of a group, with the others at rest."""
-    loops = ClosedLoops(linkage.joints, linkage.structure, group, linkage.couplings)
+    loops = ClosedLoops.of(linkage, group)
     freedoms = loop_freedoms(linkage)[linkage.structure.loop_groups.index(group)]
     drive, *held = (loops.columns.index(each) for each in driven if each in loops.columns)
     return MotionCurve(loops, drive, held, idle=len(freedoms.motions) - 1 - len(held))
@@ -274,7 +274,7 @@ def _residual(mechanism: Mechanism, pose: Mapping[str, Float[np.ndarray, " _"]])
     """Compute the square root of Eq. 12 over all loops in a pose."""
     linkage, squares = mechanism.linkage, 0.0
     for group in linkage.structure.loop_groups:
-        loops = ClosedLoops(linkage.joints, linkage.structure, group, linkage.couplings)
+        loops = ClosedLoops.of(linkage, group)
         q = np.array([pose[mechanism.all_joints[joint].name][k] for joint, k in loops.columns])
         squares += loops.travel(q / loops.units).residual_norm ** 2
     return squares**0.5

@@ -76,7 +76,7 @@ def singularities(workspace: Workspace) -> Singularities:
     if not groups or places[1][0] not in linkage.structure.loop_groups[groups[0]].joints:
         raise ValueError("the two inputs move no loop together: the limits of each are those of jk.limits")
     group = linkage.structure.loop_groups[groups[0]]
-    loops = ClosedLoops(linkage.joints, linkage.structure, group, linkage.couplings)
+    loops = ClosedLoops.of(linkage, group)
     columns = [loops.columns.index(place) for place in places if place in loops.columns]
     idle = len(loop_freedoms(linkage)[groups[0]].motions) - len(columns)
     joints = {index: linkage.joints[index] for index in group.joints}

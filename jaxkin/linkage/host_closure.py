@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import jax
 import numpy as np
@@ -18,6 +18,9 @@ from jaxkin.joints.joint import Joint
 from jaxkin.joints.screws import Screws, chain, moved
 from jaxkin.linkage.first_order import DOUBLE, SINGLE
 from jaxkin.topology.structure import LoopGroup, Structure
+
+if TYPE_CHECKING:
+    from jaxkin.linkage.linkage import Linkage
 
 _ITERATIONS = 200
 """Largest number of steps: two dozen close loops that are wide open, and the others are for loops that cannot close."""
@@ -105,6 +108,11 @@ class ClosedLoops:
     The origin is the centroid of the joint frames on part 1, and lengths are divided by the root-mean-square distance
     of these from it, the characteristic length.
     """
+
+    @staticmethod
+    def of(linkage: Linkage, loop_group: LoopGroup) -> ClosedLoops:
+        """Take the loops of a loop group of a linkage, of the joints that are solved, and its couplings."""
+        return ClosedLoops(linkage.solved_joints, linkage.structure, loop_group, linkage.couplings)
 
     def __init__(
         self,

@@ -158,7 +158,7 @@ def _close_group(
     linkage: Linkage, loop_group: LoopGroup, fixed: Container[JointCoordinate], noise: float
 ) -> _ClosedGroup:
     """Close loops from the given pose; where the steps end at a residual, by the nearest of those from other starts."""
-    loops = ClosedLoops(linkage.joints, linkage.structure, loop_group, linkage.couplings)
+    loops = ClosedLoops.of(linkage, loop_group)
     q, held = np.zeros(len(loops.columns)), [k for k, column in enumerate(loops.columns) if column in fixed]
     before = loops.travel(q).residual_norm
     if loops.coincide or before <= loops.thresholds.residual:

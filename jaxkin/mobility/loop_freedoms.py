@@ -33,7 +33,7 @@ class LoopFreedoms:
     """
 
     def __init__(self, linkage: Linkage, loop_group: LoopGroup) -> None:
-        self._loops = ClosedLoops(linkage.solved_joints, linkage.structure, loop_group, linkage.couplings)
+        self._loops = ClosedLoops.of(linkage, loop_group)
         self.loop_group = loop_group
         self.columns = self._loops.columns
         """(joint, coordinate) of each column: the coordinates of the joints of the loop group in turn."""

@@ -52,7 +52,7 @@ def opening(linkage: Linkage, unit: str = "") -> Opening | None:
         return None
     worst: Opening | None = None
     for loop_group in linkage.structure.loop_groups:
-        loops = ClosedLoops(linkage.solved_joints, linkage.structure, loop_group, linkage.couplings)
+        loops = ClosedLoops.of(linkage, loop_group)
         at_rest = np.zeros(len(loops.columns))
         if loops.coincide or (norm := loops.travel(at_rest).residual_norm) <= loops.thresholds.residual:
             continue
