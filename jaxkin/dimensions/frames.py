@@ -20,7 +20,8 @@ from jaxkin.joints.patch_contact import placed_patch
 from jaxkin.joints.profiles import check_simple, placed_profile
 from jaxkin.linkage.linkage import Linkage
 
-Place = str | tuple[str, str]
+FrameKey = str | tuple[str, str]
+"""A joint, or a part and a joint: the frame of the joint on both of its parts, or on this one."""
 
 _PROFILES = {("profile",): 0, ("profile2",): 1, ("surface",): 0}
 """How the keys of the profiles and of the surface of a joint end, and which of those that it has is meant."""
@@ -99,7 +100,7 @@ def _with_profile(linkage: Linkage, place: Any, column: int, number: int, points
     return linkage.with_joints(joints)
 
 
-def _placed(linkage: Linkage, place: Place, given, change) -> Linkage:
+def _placed(linkage: Linkage, place: FrameKey, given, change) -> Linkage:
     """Replace the frame at a place by `change(frame, given)`; ValueError where it is not clear which frame is meant."""
     column, side = locate(linkage, place)
     joint = linkage.joints[column]
@@ -119,7 +120,7 @@ def _placed(linkage: Linkage, place: Place, given, change) -> Linkage:
     return linkage.with_joints(joints)
 
 
-def locate(linkage: Linkage, place: Place) -> tuple[int, str | None]:
+def locate(linkage: Linkage, place: FrameKey) -> tuple[int, str | None]:
     """Find the column of a joint, and which copy of its frame is meant: None for both. ValueError for unknown names."""
     if not isinstance(place, str) and not (isinstance(place, tuple) and len(place) == 2):
         raise ValueError(f"a frame is named by its joint, 'A', or by (part, joint), ('crank', 'A'), got {place!r}")
@@ -136,7 +137,7 @@ def locate(linkage: Linkage, place: Place) -> tuple[int, str | None]:
     return column, "frames_1" if part == parts[0] else "frames_2"
 
 
-def _pose(place: Place, pose):
+def _pose(place: FrameKey, pose):
     """Check that numbers are a rigid 4x4 pose (ValueError); traced ones are not checked."""
     if traced(pose):
         return pose

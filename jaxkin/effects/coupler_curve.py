@@ -17,10 +17,11 @@ from jaxkin._arguments import check_known, check_motion
 from jaxkin._files import save_figure
 from jaxkin._names import listed, nearest
 from jaxkin.effects.curve_range import CurvePoints, CurveRange, Evaluate, range_of
-from jaxkin.effects.cusps_crossings import Crossing, Cusp, Place, crossings_of, cusps_of
+from jaxkin.effects.cusps_crossings import Crossing, Cusp, crossings_of, cusps_of
 from jaxkin.effects.pose_plot import save_rows
 from jaxkin.effects.rates import accelerations, velocities
 from jaxkin.geometry.movements import is_length
+from jaxkin.geometry.pose import Vector
 from jaxkin.mechanism.motion import Motion, as_point
 
 FLAT = 1e-9
@@ -136,7 +137,7 @@ def coupler_curve(motion: Motion, part: str, point: Sequence[float | int] | np.n
     return CouplerCurve(part, drive, inputs, points, cusps, crossings, axes if flat else None)
 
 
-def _evaluation(motion: Motion, drive: str, part: str, at: Place) -> Evaluate:
+def _evaluation(motion: Motion, drive: str, part: str, at: Vector) -> Evaluate:
     """Make the function that computes the curve at any inputs."""
 
     def evaluate(inputs: Float[np.ndarray, " inputs"]) -> CurvePoints:
@@ -170,5 +171,5 @@ def _axes(points: Float[np.ndarray, "poses 3"]) -> tuple[Float[np.ndarray, "2 3"
     return directions[:2], flat
 
 
-def _place(point: Place) -> str:
+def _place(point: Vector) -> str:
     return "(" + ", ".join(f"{x:.6g}" for x in point) + ")"

@@ -13,6 +13,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.effects.curve_range import MEETS, CurveRange, Evaluate
+from jaxkin.geometry.pose import Vector
 
 NEWTON_STEPS = 12
 """Newton steps from the steps of the motion: from a few degrees, five reach rounding."""
@@ -32,15 +33,13 @@ each of which leaves two thirds at a triple zero."""
 BLOCK = 512
 """Steps of the curve that are compared with all others at once: some megabytes of numbers."""
 
-Place = Float[np.ndarray, "3"]
-
 
 class Cusp(NamedTuple):
     """A pose in which the point stands still and turns back."""
 
     input: float
     """Displacement of the drive."""
-    point: Place
+    point: Vector
 
 
 class Crossing(NamedTuple):
@@ -48,7 +47,7 @@ class Crossing(NamedTuple):
 
     inputs: tuple[float, float]
     """Displacements of the drive."""
-    point: Place
+    point: Vector
     angle: float
     """Between the tangents, radians, 0 to pi/2."""
 

@@ -35,7 +35,7 @@ MAX_STUDY_BYTES = 1_000_000
 """Bytes of a study at most; they are written by people."""
 
 Triple = Annotated[list[Number], Field(min_length=3, max_length=3)]
-Place = Annotated[list[Number], Field(min_length=2, max_length=2)]
+PlanePoint = Annotated[list[Number], Field(min_length=2, max_length=2)]
 Row = Annotated[list[Number], Field(min_length=4, max_length=4)]
 Frame = Annotated[list[Row], Field(min_length=4, max_length=4)]
 Pair = Annotated[list[str], Field(min_length=2, max_length=2)]
@@ -94,14 +94,14 @@ class JointTable(BaseModel):
     direction: Triple | None = None
     centre: Triple | None = None
     pitch: Number | None = None
-    profile: list[Place] | None = None
+    profile: list[PlanePoint] | None = None
     surface: list[list[Triple]] | None = None
     closed: bool | Annotated[list[bool], Field(min_length=2, max_length=2)] | None = None
     follower: Annotated[str, BeforeValidator(partial(one_of, FOLLOWERS))] | None = None
     radius: Number | None = None
     point2: Triple | None = None
     direction2: Triple | None = None
-    profile2: list[Place] | None = None
+    profile2: list[PlanePoint] | None = None
     closed2: bool | None = None
     contact: Triple | None = None
     state: str | None = None
