@@ -6,7 +6,7 @@ equations of each loop, for optimisers outside jaxkin and as a check of the kern
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -40,6 +40,10 @@ class ClosureEquations:
     """Derivative of the residual with respect to the coordinates of all joints, one joint after the other."""
     coordinates: tuple[str, ...]
     """Names of the columns, "joint.coordinate"."""
+
+    def __iter__(self) -> Iterator[Any]:
+        """Unpack: `residual, jacobian, coordinates = mechanism.closure(...)`."""
+        return iter((self.residual, self.jacobian, self.coordinates))
 
 
 jax.tree_util.register_dataclass(ClosureEquations, data_fields=["residual", "jacobian"], meta_fields=["coordinates"])

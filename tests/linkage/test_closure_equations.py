@@ -95,6 +95,10 @@ def test_the_result_may_leave_jit_and_be_kept_in_a_set():
     assert inside.coordinates == here.coordinates
     np.testing.assert_allclose(inside.residual, here.residual, atol=1e-15)  # rounding of a few products
     assert len({here, inside, here}) == 2 and here == here != inside
+    residual, jacobian, coordinates = here
+    assert (
+        residual is here.residual and jacobian is here.jacobian and coordinates == ("A.phi", "B.phi", "C.phi", "D.phi")
+    )
 
 
 def test_wrong_coordinates_are_named():
