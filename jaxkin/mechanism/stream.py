@@ -17,7 +17,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float
 
-from jaxkin._arguments import by_name
+from jaxkin._arguments import by_name, whole_number
 from jaxkin._traced import traced
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.trig import TURN
@@ -58,8 +58,7 @@ class Stream:
         mechanism, drive = with_targets(mechanism, by_name(drive, "driven displacements", "{'A': angles}"))
         if traced(mechanism, {name: drive[name] for name in named(drive)}):
             raise ValueError("a stream is of numbers: inside jit, vmap and grad write sweep")
-        if not isinstance(chunk, int | np.integer) or chunk < 1:
-            raise ValueError(f"chunk must be a number of poses, 1 or more, got {chunk}")
+        chunk = whole_number(chunk, "chunk", 1)
         warn_of_float32()
         self.mechanism = mechanism
         self.inputs = {name: np.asarray(entry.values) for name, entry in resolve(mechanism.linkage, drive).items()}

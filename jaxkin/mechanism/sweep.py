@@ -13,7 +13,7 @@ import numpy as np
 from jax import dtypes, lax
 from jaxtyping import Array, Float
 
-from jaxkin._arguments import by_name
+from jaxkin._arguments import by_name, yes_or_no
 from jaxkin._traced import inside_trace, traced
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.trig import TURN
@@ -75,6 +75,7 @@ def sweep(
     wrong values, and for `throw=True` where numbers are traced.
     """
     warn_of_float32()
+    throw = yes_or_no(throw, "throw")
     motion = with_limited(follow_drive(mechanism, drive, options_with(options, tolerance, method), tolerance))
     if throw:
         motion.check()

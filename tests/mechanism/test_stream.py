@@ -118,7 +118,7 @@ def test_one_chunk_is_the_sweep_and_no_pose_is_an_empty_one():
 
 def test_refused():
     mechanism = planar_fourbar(1.0)
-    with pytest.raises(ValueError, match="chunk must be a number of poses, 1 or more, got 0"):
+    with pytest.raises(ValueError, match="chunk must be a whole number, 1 or more, got 0"):
         mechanism.stream({"A": [0.0]}, chunk=0)
     with pytest.raises(ValueError, match="there is no joint 'a'"):
         mechanism.stream({"a": [0.0]})

@@ -48,6 +48,8 @@ class InverseProblem:
         """Which columns repeat after a whole turn: those of hinges and balls that no coupling and no target names."""
         ends = [linkage.joints[k].limits[c] if linkage.joints[k].limits else (-np.inf, np.inf) for k, c in self.places]
         self.limits = Bounds(*(np.array(ends, float).reshape(-1, 2) / self.units[:, None]).T)
+        self.reach = _reach(linkage, self.places, self.lengths, self.size)
+        """How far each column is moved at random starts, radians and sizes: see `_reach`."""
         self.unlimited = Bounds(*np.full((2, len(self.places)), [[-np.inf], [np.inf]]))
         self.inputs = np.zeros(len(self.places), bool)
         self.rest = np.zeros(len(self.places))
@@ -104,6 +106,26 @@ class InverseProblem:
         aimed = np.concatenate([np.zeros((len(x), 0, x.shape[1])), *slopes], axis=1)
         merit = np.sum(targets**2, axis=1) + PENALTY * np.sum(closure**2, axis=1)
         return StepEquations(closure, jacobian, targets, aimed, x - self.rest), merit
+
+
+def _reach(
+    linkage: Linkage, places: Sequence[JointCoordinate], lengths: Float[np.ndarray, " columns"], size: float
+) -> Float[np.ndarray, " columns"]:
+    """Say how far each column is moved at random starts: slides by the size of the mechanism, hinges by half a turn,
+    screws by as many turns as advance by that size, and what a coupling of two ties to them by what it asks for."""
+    reach = np.where(lengths, 1.0, np.pi)
+    for column, (joint, _) in enumerate(places):
+        pitch = abs(float(linkage.joints[joint].pitch))
+        if pitch and any(MOVEMENTS[name].has_pitch for name in linkage.joints[joint].movements):
+            reach[column] = max(np.pi, TURN * size / pitch)
+    units = np.where(lengths, size, 1.0)
+    for coupling in linkage.couplings:
+        factors = np.asarray(coupling.coefficients, float)
+        columns = [places.index(coordinate(linkage, name)) for name in coupling.coordinates]
+        if len(columns) == 2 and factors[:, 0].all() and not factors[:, 1:].any():
+            asked = np.abs(factors[:, 0]) * units[columns] * reach[columns]
+            reach[columns] = asked.max() / (np.abs(factors[:, 0]) * units[columns])
+    return reach
 
 
 def _turns(linkage: Linkage, aims: Sequence[Aim]) -> list[bool]:

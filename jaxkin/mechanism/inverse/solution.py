@@ -77,9 +77,9 @@ def from_unlimited(problem: InverseProblem, bounds: Bounds, iterations: int) -> 
 
 
 def from_random(problem: InverseProblem, bounds: Bounds, iterations: int, count: int, seed: int) -> Iterator[Solution]:
-    """Solve from starts at random within the limits: on a turn, or along two sizes, as near zero as they let it be."""
-    rng = np.random.default_rng(seed)
-    reach = np.where(problem.lengths, 1.0, np.pi)
+    """Solve from starts at random within the limits: as far as `InverseProblem.reach` to both sides of zero, or as near
+    to it as the limits let that be."""
+    rng, reach = np.random.default_rng(seed), problem.reach
     low = np.maximum(bounds.low, np.minimum(-reach, bounds.high - 2 * reach))
     high = np.minimum(bounds.high, np.maximum(reach, bounds.low + 2 * reach))
     for _ in range(count):
