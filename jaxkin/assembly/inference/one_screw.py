@@ -11,7 +11,7 @@ from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.fasteners import Stack, beside
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.sleeves import SAME_FIT
+from jaxkin.assembly.inference.sleeves import SAME_FIT, is_round_about
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 THROUGH = 0.047
@@ -37,10 +37,10 @@ def clamped_by_one_screw(known: Known, every: Sequence[Stack]) -> list[Inference
     """Join two parts that one screw holds to each other.
 
     The head, or a washer, lies on the one, through which the screw goes with the clearance of a screw and not of a
-    hinge. The other one, on which that lies flat, or on what is one body with it, has the hole that the screw is tight
-    in, or lies on the nut, with a hole as wide. Where the screw is in a hole drilled for its thread, a second pin
-    beside it serves as well as the flat faces, as that of an adjusting screw: the part cannot turn, and the head keeps
-    it from sliding off.
+    hinge. The other one, on which that lies flat, has the hole that the screw is tight in, or lies on the nut, with a
+    hole as wide. Where the screw is in a hole drilled for its thread, a second pin beside it serves as well as the flat
+    faces, as that of an adjusting screw: the part cannot turn, and the head keeps it from sliding off. A round part,
+    as the washer at the end of a shaft, may lie on a hub that is one body with the shaft.
     A bar with such screws into several bodies is a link, which turns on them; so are levers, and leaves on two screws.
     A pin with a flag under a screw, itself in a hole of what the screw is tight in, turns on neither.
     Where nothing of that is drawn, either may be meant: the text says how to have the hinge.
@@ -120,7 +120,10 @@ def _under_head(known: Known, stack: Stack, body: Mapping[str, str]) -> list[_Cl
             apart = body[part] != body[host] and pair.one.part == screw
             if apart and known.touches_across(part, stack.axis.axis, *stack.fasteners):
                 flag = _is_flag(known, part, host, inner)
-                around = [host, *(name for name in known.names if name != host and body[name] == body[host])]
+                washer = is_round_about(known, part, inner.one)
+                if host in shafts and not washer:
+                    continue
+                around = [name for name in known.names if body[name] == body[host]] if washer else [host]
                 flat = _is_wide(pair) and any(
                     known.touches_only_across(part, each, inner.one.axis, pins=not flag) for each in around
                 )
