@@ -17,7 +17,7 @@ from jaxkin.assembly.inference.measured import Measured
 from jaxkin.assembly.inferred import inferred
 from jaxkin.assembly.left_loose import left_loose
 from jaxkin.assembly.proposals import Proposal, proposals
-from jaxkin.assembly.to_mechanism import Said, check_said, from_words
+from jaxkin.assembly.to_mechanism import Said, check_said, from_words, without_rigid_joints
 from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.contacts.detect import find_contacts
 from jaxkin.contacts.tolerance import ContactTolerance
@@ -165,7 +165,8 @@ class Assembly:
     ) -> Mechanism:
         """Make the mechanism that rigid groups and joints by hand make alone, without contacts and inferences.
 
-        What they tie to nothing is left at rest, and a note names it. Joints of parts that are left out go with them.
+        What they tie to nothing is left at rest, and a note names it. Joints of parts that are left out go with them;
+        those of two parts that `rigid` or `fixed` make one body are left out, and notes name them.
         Otherwise as `mechanism`.
         """
         left = {*_in_full(exclude, self.parts, "exclude")}
@@ -178,7 +179,9 @@ class Assembly:
         )
         kept = self.without(left)
         check_said(kept.names, said)
-        return from_words(kept, Contacts(()), said, left_loose(kept.names, said))
+        said, notes = without_rigid_joints(kept.names, said)
+        made = from_words(kept, Contacts(()), said, left_loose(kept.names, said))
+        return replace(made, history=(*notes, *made.history))
 
     def proposals(
         self,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
@@ -74,6 +75,21 @@ def check_said(names: Sequence[str], said: Said) -> None:
         raise ValueError(f"clearance must be a radial length in the unit of the file, such as 0.2, got {clearance!r}")
 
 
+def without_rigid_joints(names: Sequence[str], said: Said) -> tuple[Said, list[str]]:
+    """Leave out the joints by hand whose two parts are one body by `rigid` or `fixed`, and tell each in a line.
+
+    For joints that were written down as they were found: a body that somebody adds to these is what is meant.
+    """
+    body = bodies(names, said.fixed, said.rigid)
+    inside = [each for each in said.joints if body[each.parts[0]] == body[each.parts[1]]]
+    held, notes = {body[part] for part in said.fixed}, []
+    for each in inside:
+        one, other = each.parts
+        why = "fixed and rigid say" if body[one] in held else "rigid says"
+        notes.append(f"joint {each.name!r} is left out, since {why} that {one!r} and {other!r} are one body")
+    return said._replace(joints=[each for each in said.joints if each not in inside]), notes
+
+
 def from_words(
     assembly: Assembly,
     contacts: Sequence[Contact],
@@ -90,7 +106,11 @@ def from_words(
     fixed = (*said.fixed, *(part for part in names if body[part] in owners and part not in said.fixed))
     for given in joints:
         if body[given.parts[0]] == body[given.parts[1]]:
-            raise ValueError(f"joint {given.name!r} joins parts that are rigidly connected: {', '.join(given.parts)}")
+            raise ValueError(
+                f"joint {given.name!r} joins parts that are rigidly connected: {', '.join(given.parts)}; leave the "
+                f"joint out (in a study, off = true in [joints.{json.dumps(given.name, ensure_ascii=False)}]), or one "
+                "of its parts out of rigid or fixed"
+            )
 
     used = without(contacts, said.ignore)
     ties = _ties(assembly, body, fixed, inferences, {given.name for given in joints})

@@ -141,6 +141,12 @@ class Study:
                 f"nothing is driven: give --drive JOINT=RANGE, once or more, or [drive] in a study{enough}; there are "
                 f"{names or 'no coordinates at all'}"
             )
+        kept = {joint.name for joint in self.mechanism.all_joints}
+        for joint in self.joints:
+            if joint.name not in kept and any(name in (joint.name, *joint.full_names) for name in self.ranges):
+                told = [note for note in self.mechanism.history if note.startswith(f"joint {joint.name!r} is left out")]
+                why = told[0] if told else f"joint {joint.name!r} is not in the mechanism"
+                raise ValueError(f"{self.source}: {why}, but it is driven: take that back, or drive another joint")
         return in_radians(self.mechanism, self.ranges)
 
     def sweep(self) -> Motion:

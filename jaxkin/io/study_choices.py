@@ -28,8 +28,9 @@ if TYPE_CHECKING:
 
 _DRIVES = 12
 """Other drives that are listed at most: each is one more line of the same mechanism."""
-_SURE = (EvidenceKind.CONTACT, EvidenceKind.USER, EvidenceKind.EXPORT)
-"""Joints that nobody would turn off: they are not inferred."""
+_SAID = (EvidenceKind.USER, EvidenceKind.EXPORT)
+"""Joints that somebody said; all others were found in solids, exact contacts too, and may be wrong: faces that touch in
+the modelled pose need not guide each other."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +58,7 @@ def find_choices(
     tried = _Tried(mechanism, bodies)
     driven = tuple(drive or ())
     instead = [*_other_fixed(tried, proposals), *islice(_other_drives(mechanism, driven), _DRIVES)]
-    off = {joint.name: _off(tried, joint, driven) for joint in tried.joints if _inferred(joint)}
+    off = {joint.name: _off(tried, joint, driven) for joint in tried.joints if _is_found(joint)}
     doubts = {joint.name: _doubt(tried, joint, driven) for joint in tried.joints if _is_doubtful(joint)}
     return Choices(tuple(instead), tuple(_needless(mechanism, bodies)), off, doubts)
 
@@ -84,10 +85,7 @@ def _other_fixed(tried: _Tried, proposals: Sequence[Proposal]) -> list[str]:
     for each in proposals:
         if set(each.fixed) == set(tried.fixed):
             continue
-        try:
-            mechanism = tried.with_fixed(each.fixed)
-        except ValueError:  # both parts of a joint of the study would be fixed
-            continue
+        mechanism = tried.with_fixed(each.fixed)
         driven = () if opening(mechanism.linkage, mechanism.unit) is not None else mechanism.mobility().drivable
         if driven and can_drive(mechanism, driven):
             choice = {"fixed": each.fixed, "drive": small_ranges(mechanism, driven)}
@@ -159,8 +157,8 @@ def _means(pattern: str, solids: Sequence[Part], names: Sequence[str]) -> bool:
         return False
 
 
-def _inferred(joint: Joint) -> bool:
-    return joint.evidence is not None and joint.evidence.kind not in _SURE
+def _is_found(joint: Joint) -> bool:
+    return joint.evidence is not None and joint.evidence.kind not in _SAID
 
 
 def _told(mechanism: Mechanism) -> str:

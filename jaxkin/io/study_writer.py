@@ -68,8 +68,8 @@ def write_study(
     - `assumptions`: lines to add as comments at the top.
     - `exclude`: parts of the file that the mechanism leaves out.
     - `proposals`: what else may be fixed, as of `Assembly.proposals`, or none of it, `()`. With them what is open is
-      listed as lines to uncomment: other parts to fix, other coordinates to drive, inferred joints to turn off, parts
-      to leave out. Of each it has been tried that the loops follow its drive. For mechanisms with solids only.
+      listed as lines to uncomment: other parts to fix, other coordinates to drive, joints to turn off, parts to leave
+      out. Of each it has been tried that the loops follow its drive. For mechanisms with solids only.
 
     What each joint is known from stands above it. The file appears whole or not at all. Raises ValueError for traced
     numbers, for a mechanism whose lengths were changed, and where `geometry` is missing.

@@ -119,7 +119,8 @@ def test_a_joint_by_hand_replaces_the_contacts(fourbar, motion):
         ({"joints": [jk.fixed("weld", "ground", "cranc")]}, "joint 'weld' names the unknown part 'cranc'; did you"),
         (
             {"joints": [jk.fixed("weld", "coupler", "crank")], "rigid": [["coupler", "crank"]]},
-            "joint 'weld' joins parts that are rigidly connected: coupler, crank",
+            "joint 'weld' joins parts that are rigidly connected: coupler, crank; leave the joint out (in a study, "
+            'off = true in [joints."weld"]), or one of its parts out of rigid or fixed',
         ),
         ({"joints": [jk.fixed("ground-crank", "coupler", "crank")]}, "joint 'ground-crank' is named twice"),
     ],

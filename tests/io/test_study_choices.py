@@ -149,6 +149,41 @@ def test_a_body_comes_apart_where_its_line_is_taken_out(study):
     assert "bolt <2>" in mechanism.fixed
 
 
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [("rigid = [", 'rigid = [["crank", "coupler"],'), ('fixed = ["ground"]', 'fixed = ["ground", "rocker"]')],
+)
+def test_joints_inside_a_body_that_somebody_adds_are_left_out_and_named(study, old, new):
+    """What a user says of two parts is meant more than the joint that was found between them."""
+    gone = "B" if "rigid" in new else "D"
+    other = study.with_name("one_body.toml")
+    other.write_text(study.read_text("utf-8").replace(old, new, 1), "utf-8")
+    mechanism = jk.load_study(other).mechanism
+    assert [joint.name for joint in mechanism.all_joints if joint.freedoms] == [each for each in "ABCD" if each != gone]
+    (note,) = [note for note in mechanism.notes if "left out" in note]
+    assert f"joint {gone!r}" in note and ("rigid" if gone == "B" else "fixed") in note
+
+
+def test_a_drive_of_a_joint_inside_a_body_is_refused_with_the_reason(study):
+    other = study.with_name("driven.toml")
+    other.write_text(study.read_text("utf-8").replace("rigid = [", 'rigid = [["ground", "crank"],', 1), "utf-8")
+    with pytest.raises(ValueError, match=r"driven\.toml: joint 'A' is left out, since fixed and rigid say.*is driven"):
+        _ = jk.load_study(other).drive
+
+
+def test_a_joint_of_exact_contacts_can_be_turned_off_and_what_somebody_said_is_left_to_them(tmp_path):
+    """Faces that fit exactly in the modelled pose need not guide each other."""
+    given = bars()
+    known = {"A": Evidence(EvidenceKind.USER), "B": Evidence(EvidenceKind.CONTACT)}
+    joints = [replace(each, evidence=known.get(each.name, CLEARANCE)) for each in given.joints.values()]
+    assembly = Assembly(given.solids, "mm", "bars")
+    mechanism = assembly.of_joints(fixed=["ground"], joints=[each for each in joints if each.freedoms])
+    path = tmp_path / "study.toml"
+    jk.write_study(mechanism, path, geometry="bars.step", proposals=())
+    tables = {each[0]: each for each in path.read_text("utf-8").split('[joints."')[1:]}
+    assert "# off = true" in tables["B"] and "off = true" not in tables["A"]
+
+
 def test_joints_go_with_a_part_that_is_left_out(study):
     other = study.with_name("less.toml")
     other.write_text(study.read_text("utf-8").replace("exclude = [", 'exclude = ["rocker",', 1), "utf-8")
