@@ -11,6 +11,7 @@ import numpy as np
 
 from jaxkin._names import free_name
 from jaxkin.assembly.exported import Constraint, Exported
+from jaxkin.assembly.ignored_contacts import check_ignored
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.untied import tied_to_nothing
@@ -60,6 +61,7 @@ def from_export(assembly: Assembly, exported: Exported, said: Said) -> Mechanism
             f"fixed=[{assembly.names[0]!r}]"
         )
     check_said(assembly.names, said)
+    check_ignored((), said.ignore, [frozenset(each.parts) for each in exported.constraints])
     notes = [*exported.notes]
     noise = Noise(DIGITS, DIGITS * size(assembly.parts))
     groups = _groups(exported, said)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 from jaxkin._arguments import several
 from jaxkin._names import closest, nearest
@@ -16,19 +16,23 @@ def without(contacts: Sequence[Contact], ignore: Sequence[Sequence[str]]) -> tup
     """Keep the contacts but for those between the two sides of an entry of `ignore`.
 
     A side is a part, "stop", for all of its contacts with the other side, or one of its faces as reports print it,
-    "stop face 7". Raises ValueError for an entry that is no pair, or that no contact is between.
+    "stop face 7".
     """
-    check_pairs(ignore)
+    return tuple(each for each in contacts if not any(_is_between(_sides(each), one, other) for one, other in ignore))
+
+
+def check_ignored(
+    contacts: Sequence[Contact], ignore: Sequence[Sequence[str]], beside: Collection[frozenset[str]] = ()
+) -> None:
+    """Refuse what leaves nothing out: ValueError for an entry that no contact is between, and that is none of the pairs
+    of parts `beside`, between which something else is left out."""
     sides = [_sides(contact) for contact in contacts]
-    left_out = set()
     for one, other in ignore:
-        between = [k for k, pair in enumerate(sides) if _is_between(pair, one, other)]
-        if not between:
+        if frozenset((one, other)) not in beside and not any(_is_between(pair, one, other) for pair in sides):
             raise ValueError(
-                f"there is no contact between {one!r} and {other!r} to ignore{_instead(sides, one, other)}"
+                f"there is no contact between {one!r} and {other!r} to ignore, and nothing is inferred there"
+                f"{_instead(sides, one, other)}"
             )
-        left_out.update(between)
-    return tuple(contact for k, contact in enumerate(contacts) if k not in left_out)
 
 
 def check_pairs(ignore: Sequence[Sequence[str]]) -> None:

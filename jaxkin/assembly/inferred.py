@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from jaxkin.assembly.caps import told_caps
-from jaxkin.assembly.ignored_contacts import without
+from jaxkin.assembly.ignored_contacts import check_ignored, without
 from jaxkin.assembly.inference.infer import infer
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Pair
@@ -65,7 +65,10 @@ def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said, tubes
     """
     source = told_by(assembly, contacts)
     used = Contacts(without(contacts, said.ignore), source.near_misses, source.notes)
-    ignored = {frozenset(contact.parts) for contact in contacts if contact not in used.contacts}
+    asked = {frozenset(pair) for pair in said.ignore if {*pair} <= {*assembly.names}}
+    ignored = asked | {frozenset(contact.parts) for contact in contacts if contact not in used.contacts}
+    check_ignored(contacts, said.ignore, asked)
+    detected, heeded = contacts, set[Pair]()
     if tubes:
         ignored |= {frozenset((each.part, other)) for each in tubes for other in assembly.names if other != each.seat}
         names = {each.part for each in tubes}
@@ -83,6 +86,7 @@ def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said, tubes
         loose = {each.part for each in tubes}
         implied = infer(assembly._measured, used, said.fixed, rigid, said.joints, ignored, said.clearance, loose, apart)
         fasteners.update(implied.fasteners)
+        heeded.update(implied.taken_back)
         found = [*seats, *implied.found]
         plain = from_words(assembly, contacts, said, found)
         return *_stopped(assembly, contacts, said, plain, found, implied.stops), _not_idle(plain)
@@ -110,6 +114,7 @@ def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said, tubes
         if useful_freedoms(other) and leaves_all_moving(mechanism, other, held):
             seats, mechanism, found = [*seats, *held], other, more
     moves = useful_freedoms(mechanism) or _has_free_slide(mechanism)
+    check_ignored(detected, said.ignore, heeded)
     told = _counted(mechanism, found)
     if found and not moves:
         unlocked, dropped = _unlocked(assembly, contacts, said, found, mechanism, fasteners)
@@ -120,7 +125,12 @@ def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said, tubes
             other, more, _ = made(kept, [frozenset((dropped.parts[0], part)) for part in dropped.parts[1:]])
             if 0 < useful_freedoms(other) < useful_freedoms(told):
                 told = _without(dropped, _counted(other, more))
-    return replace(told, history=(*told_caps(told), *told.history))
+    taken_back = [
+        f"nothing is inferred between {one!r} and {other!r}, as was asked for"
+        for one, other in said.ignore
+        if frozenset((one, other)) in heeded
+    ]
+    return replace(told, history=(*told_caps(told), *taken_back, *told.history))
 
 
 def _choices(lying: Sequence[Inference]) -> list[Sequence[Inference]]:
@@ -253,4 +263,8 @@ def _counted(mechanism: Mechanism, inferences: Sequence[Inference]) -> Mechanism
     if not kinds:
         return mechanism
     told = ", ".join(f"{count} by {kind}" for kind, count in kinds.most_common())
+    tied = [each for each in inferences if each.evidence.kind is not EvidenceKind.NEAREST]
+    if tied:
+        example = min(tied, key=lambda each: each.joint is not None).parts[:2]
+        told += f"; what is inferred of two parts is taken back by their names, as in ignore={[list(example)]}"
     return replace(mechanism, history=(f"{TOLD}: {told}", *mechanism.history))

@@ -81,6 +81,8 @@ class Inferred(NamedTuple):
     fasteners: frozenset[str]
     """The parts that were taken for fasteners by their form, and that neither slide, turn nor roll on what they are
     in."""
+    taken_back: set[Pair]
+    """Those of the ignored pairs between which something would have been inferred."""
 
 
 def infer(
@@ -114,7 +116,7 @@ def infer(
     replacing = [each for each in stopped.joined if each.replaces_slide]
     replacing = [each for each in replacing if len({body[part] for part in each.inference.parts}) > 1]
     stops = [[each.inference for each in replacing if each.stop is level] for level in Stop]
-    return Inferred(known.found, stops, frozenset(fastening))
+    return Inferred(known.found, stops, frozenset(fastening), known.taken_back)
 
 
 def _take_bearings(known: Known) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -16,6 +17,7 @@ from jaxkin.assembly.inference.stop_faces import stands_across
 from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector
+from jaxkin.joints.evidence import EvidenceKind
 from jaxkin.joints.joint import Joint
 from jaxkin.topology.bodies import bodies
 
@@ -72,6 +74,8 @@ class Known:
         """Bearings that are one ring each."""
         self.bores, found = measured.bores, measured.axes(clearance)
         self.ignored, self.clearance, self.apart = ignored, clearance, apart
+        self.taken_back = {frozenset(pair.parts) for pair in found if frozenset(pair.parts) in ignored}
+        """Those of the ignored pairs between which something would have been inferred."""
         found = [pair for pair in found if frozenset(pair.parts) not in ignored]
         self.sockets = [each for each in sockets(self.parts, clearance) if frozenset(each.parts) not in ignored]
         self.axes = [pair for pair in found if not pair.tapped and not self._is_neck(pair)]
@@ -142,7 +146,9 @@ class Known:
         Parts that are one body are not joined again. Parts that joints by hand or inferred joints join are left apart,
         and so are the rings of a bearing, and the pairs of `apart`. Of joints those within a body are left out, and
         those between bodies that something joined before: one rule may find several axes of two bodies, as bearings do.
+        What is ignored is left out first.
         """
+        inferences = [less for each in inferences if (less := self._heeding(each))]
         before = len(self.found)
         jointed = (frozenset(each.parts) for each in self.found if each.joint)
         jointed = [*self.by_hand, *self.rings, *self.apart, *jointed]
@@ -160,6 +166,25 @@ class Known:
                 self.found.append(each)
         self.jointed = self._jointed()
         return len(self.found) > before
+
+    def _heeding(self, inference: Inference) -> Inference | None:
+        """Leave out of an inference those parts that are to be ignored beside an earlier one, often their host; None
+        where it is about nothing then.
+
+        Pairs with a contact left are ignored by some of their faces only, and springs by what they do not push. Parts
+        that nothing ties are not tied to an ignored one in the first place, or are left at rest.
+        """
+        if inference.evidence.kind is EvidenceKind.NEAREST:
+            return inference
+        kept: list[str] = []
+        for part in inference.parts:
+            pairs = {frozenset((part, other)) for other in kept} & {*self.ignored} - self.touching
+            pairs = {pair for pair in pairs if not pair & self.springs}
+            self.taken_back |= pairs
+            kept += [] if pairs else [part]
+        if len(kept) == len(inference.parts):
+            return inference
+        return None if inference.joint or len(kept) < 2 else replace(inference, parts=tuple(kept))
 
     def _jointed(self) -> frozenset[Pair]:
         pairs = (*self.by_hand, *(each.parts for each in self.found if each.joint))

@@ -55,7 +55,9 @@ def tied_to_nothing(known: Known) -> list[Inference]:
     home, result = group_of[known.fixed[0]], []
     for _, distance, part, host in _distances(known, group_of):
         own, other = group_of[part], group_of[host]
-        if own != other:
+        if own != other and frozenset((part, host)) in known.ignored:
+            known.taken_back.add(frozenset((part, host)))
+        elif own != other:
             text = f"{part!r} is tied to nothing, and {distance:.3g} from {host!r}"
             result.append(_nearest((host, part), distance, text))
             gone, stays = (own, other) if own != home else (other, own)

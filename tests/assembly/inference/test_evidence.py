@@ -134,6 +134,21 @@ def test_what_the_user_says_comes_first():
     assert not any(joint.freedoms for joint in exact.all_joints)
 
 
+def test_an_inference_of_two_parts_without_contact_is_taken_back_by_their_names():
+    """A screw of 4 mm in a hole of 3.4 is held there, and touches the plate nowhere."""
+    plate = part("plate", BASE, ring(3.4, 20.0, -20, 0))
+    drawn = assembly(plate, part("screw", pin(4.0, -15, 12)), part("lever", ring(4.4, 12.0, 2, 10)))
+    assert drawn.mechanism(fixed=["plate"]).bodies["plate"] == ("plate", "screw")
+    told = " ".join(drawn.mechanism(fixed=["plate"]).notes)
+    assert "ignore=[['plate', 'screw']]" in told
+    mechanism = drawn.mechanism(fixed=["plate"], ignore=[["screw", "plate"]])
+    assert not any("fastener" in note and "'plate', 'screw' are one body" in note for note in mechanism.notes)
+    assert "nothing is inferred between 'screw' and 'plate', as was asked for" in mechanism.notes
+    for pair in (["plate", "lever"], ["plate", "scrw"]):
+        with pytest.raises(ValueError, match=f"no contact between 'plate' and '{pair[1]}' to ignore, and nothing is"):
+            drawn.mechanism(fixed=["plate"], ignore=[pair])
+
+
 def test_parts_are_left_out_and_named_by_patterns():
     extra = [part(f"bolt <{k}>", block((100 + 20 * k, 0, 0), (110 + 20 * k, 10, 10))) for k in range(3)]
     drawn = hinge_with(4.5, *extra)
