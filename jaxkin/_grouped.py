@@ -13,18 +13,32 @@ follows is to be seen, too. Of an assembly of 67 parts it has 90 lines in place 
 fix and what moves."""
 _NUMBER = re.compile(r"(?<![A-Za-z])-?\d[\d.]*(?:e[+-]?\d+)?")
 _QUOTED = re.compile(r"'[^']*'")
-_INSTANCE = r"<\d+>|\(\d+\)|:\d+"
-_REPEAT = re.compile(rf"\s*(?:(?:{_INSTANCE})?#\d+|{_INSTANCE}|[-_ .]\d+)$")
+_INSTANCE = re.compile(r"(?:\s*(?:<\d+>|\(\d+\)|:\d+|#\d+))+$")
+"""What CAD systems, and readers after them, add to the name of a product: nobody calls a product so."""
+_COUNTED = re.compile(r"(.*[^-_ .])[-_ ]+(\d+)|(.*[^-_ .\d])\.(\d+)")
+"""A name that ends in a number, which may count instances or be a size."""
+_OF_SIZE = re.compile(r"(?<![^\W\d])[xX\u00d7]$")
+"""What stands before a size, as in "M10 x 35"; not the end of a word, as in "Box 2"."""
 
 
-def product(name: str) -> str:
-    """Return the name of a part without its sub-assembly, and without what tells it from others of the same product.
+def products(names: Iterable[str]) -> dict[str, str]:
+    """Map names of parts to the names of their products: without what tells them from others of the same product.
 
-    That is a number at its end, as in "bolt <2>", "bolt#2", "bolt(2)", "bolt:2", "bolt_2", "bolt-2" and "bolt 2"; where
-    the reader numbered what CAD systems had numbered, both, as in "bolt:1#2".
+    That is "<2>", "(2)", ":2" or "#2" at their end, also several, as in "bolt:1#2". A number alone, as in "bolt 2",
+    "bolt_2", "bolt-2" and "bolt.2", may as well be a size: it is taken away where others with the same words before it
+    count from 0 or 1 on, with fewer gaps than numbers.
     """
-    last = name.rpartition("/")[2]
-    return _REPEAT.sub("", last) or last
+    bare = {name: _INSTANCE.sub("", name) or name for name in names}
+    counts: dict[str, set[int]] = {}
+    stems: dict[str, str] = {}
+    for name in {*bare.values()}:
+        if found := _COUNTED.fullmatch(name):
+            stem, number = (each for each in found.groups() if each is not None)
+            if not _OF_SIZE.search(stem):
+                stems[name] = stem
+                counts.setdefault(stem, {1} if stem in bare.values() else set()).add(int(number))
+    counting = {stem for stem, found in counts.items() if min(found) <= 1 and 1 < len(found) > max(found) / 2}
+    return {name: stems[each] if stems.get(each) in counting else each for name, each in bare.items()}
 
 
 def kind_of(text: str) -> str:

@@ -5,7 +5,7 @@ import pytest
 import trimesh
 
 import jaxkin as jk
-from jaxkin._grouped import MAX_LINES, SCREEN, grouped, kind_of, product, shortened
+from jaxkin._grouped import MAX_LINES, SCREEN, grouped, kind_of, products, shortened
 from jaxkin.assembly.assembly import Assembly
 from jaxkin.geometry.part import Part
 
@@ -13,16 +13,37 @@ BOX = trimesh.creation.box((1.0, 1.0, 1.0)).triangles
 
 
 @pytest.mark.parametrize(
-    "name",
-    ["Screw <2>", "Screw#2", "Screw(12)", "Screw:1", "Screw_2", "Screw-3", "Screw 4", "Arm <1>/Screw <7>", "Screw:1#2"],
+    ("one", "other"),
+    [
+        *[("Screw <2>", "Screw <3>"), ("Screw", "Screw#2"), ("Screw(12)", "Screw(1)"), ("Screw:1#2", "Screw:1")],
+        *[("Screw_1", "Screw_2"), ("Screw-0", "Screw-1"), ("Screw", "Screw 2"), ("Screw.001", "Screw.002")],
+    ],
 )
-def test_instances_are_of_one_product(name):
-    assert product(name) == "Screw"
+def test_instances_are_of_one_product(one, other):
+    assert products([one, other]) == {one: "Screw", other: "Screw"}
 
 
-def test_what_is_only_a_number_or_belongs_to_the_name_stays():
-    assert product("12") == "12" and product("M5") == "M5" and product("p1") == "p1"
-    assert product("Plate 1:2") == product("Plate 1:2#3") == "Plate 1"
+@pytest.mark.parametrize("name", ["12", "M5", "p1", "Plate 1"])
+def test_what_is_only_a_number_or_belongs_to_the_name_stays(name):
+    assert products([name, f"{name}:2", f"{name}:2#3"]) == dict.fromkeys([name, f"{name}:2", f"{name}:2#3"], name)
+
+
+@pytest.mark.parametrize(
+    "names",
+    [
+        ["Nut 5/16", "Nut 1/2", "Socket Screw 1/2"],
+        ["Hex Bolt 3/8-16 x 1", "Hex Bolt 3/8-16 x 2", "Hex Bolt 3/8-16 x 4"],
+        ["Clevis Pin 12", "Clevis Pin 16"],
+        ["Dowel 5x27.0", "Dowel 5x27.1"],
+        ["Washer ISO 7089 - 10", "Washer ISO 7089 - 12"],
+        ["ISO 4017 M10 x 35", "ISO 4017 M10 x 40"],
+    ],
+)
+def test_sizes_and_fractions_of_an_inch_are_the_names_of_products(names):
+    """With and without others of the same product, which readers number."""
+    for some in ([names[0]], names):
+        numbered = [each for name in some for each in (name, f"{name}#2")]
+        assert products(numbered) == {each: each.partition("#")[0] for each in numbered}
 
 
 def test_texts_of_one_kind():

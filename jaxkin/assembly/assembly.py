@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from jaxkin._arguments import several, text
-from jaxkin._grouped import SCREEN, grouped, kind_of, product, shortened
+from jaxkin._grouped import SCREEN, grouped, kind_of, products, shortened
 from jaxkin._names import counted, match_parts, nearest
 from jaxkin.assembly.exported import Exported
 from jaxkin.assembly.from_export import from_export
@@ -241,12 +241,13 @@ class Assembly:
                 lines.append(f"  {part.name.ljust(width)}  {_faces(part)}")
                 lines += [f"  {' ' * width}    {note}" for note in part.notes]
             return "\n".join(lines)
-        products: dict[tuple[str, str], list[str]] = {}
+        product = products(self.names)
+        alike: dict[tuple[str, str], list[str]] = {}
         for part in self.parts:
-            products.setdefault((product(part.name), _faces(part)), []).append(part.name)
+            alike.setdefault((product[part.name], _faces(part)), []).append(part.name)
         rows = [
             f"{names[0]}: {faces}" if len(names) == 1 else f"{name} ({len(names)} times): {faces}"
-            for (name, faces), names in products.items()
+            for (name, faces), names in alike.items()
         ]
         lines += [f"  {row}" for row in shortened(rows)]
         told = [(kind_of(note), f"{part.name}: {note}") for part in self.parts for note in part.notes]

@@ -10,7 +10,7 @@ from typing import overload
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin._grouped import SCREEN, grouped, kind_of, product, shortened
+from jaxkin._grouped import SCREEN, grouped, kind_of, products, shortened
 from jaxkin._names import counted
 from jaxkin.contacts.states import ContactState, find_state
 from jaxkin.geometry.pose import Vector
@@ -129,10 +129,11 @@ class Contacts(Sequence[Contact]):
     def _counts(self) -> list[str]:
         """Write how many contacts there are of each state, and of each pair of products (parts of one design)."""
         states = Counter(f"({each.state}) {each.contact_state.name}" for each in self.contacts)
-        products: dict[tuple[str, ...], Counter[str]] = defaultdict(Counter)
+        product = products(part for each in self for part in each.parts)
+        pairs: dict[tuple[str, ...], Counter[str]] = defaultdict(Counter)
         for each in self.contacts:
-            products[tuple(sorted(map(product, each.parts)))][f"({each.state})"] += 1
-        most = sorted(products.items(), key=lambda item: item[1].total(), reverse=True)
+            pairs[tuple(sorted(map(product.__getitem__, each.parts)))][f"({each.state})"] += 1
+        most = sorted(pairs.items(), key=lambda item: item[1].total(), reverse=True)
         rows = [f"{' - '.join(pair)}: {', '.join(_counted(found))}" for pair, found in most]
         return [", ".join(_counted(states)), *shortened(rows)]
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from jaxkin._grouped import product
+from jaxkin._grouped import products
 from jaxkin._names import match_parts
 from jaxkin.assembly.assembly import Assembly
 from jaxkin.geometry.part import Part
@@ -132,11 +132,12 @@ def _needless(mechanism: Mechanism, bodies: Bodies) -> list[str]:
     held = Counter(part for parts, _ in bodies.groups for part in parts)
     jointed = {part for joint in mechanism.all_joints if joint.freedoms for part in joint.parts}
     evidence = {part: each for parts, each in reversed(bodies.groups) for part in parts}
+    product = products(mechanism.parts)
     found: dict[tuple[str, str], list[Part]] = {}
     for part in mechanism.solids:
         if held[part.name] == 1 and part.name not in jointed and part.name not in bodies.fixed:
             known = evidence[part.name]
-            found.setdefault((product(part.name), str(known.kind) if known else "rigid"), []).append(part)
+            found.setdefault((product[part.name], str(known.kind) if known else "rigid"), []).append(part)
     return [_exclude(name, kind, parts, mechanism.solids) for (name, kind), parts in found.items()]
 
 
@@ -144,9 +145,9 @@ def _exclude(name: str, kind: str, parts: Sequence[Part], solids: Sequence[Part]
     """Write one line for the parts of one product: their pattern where it stands for them alone, otherwise their
     names."""
     names = [part.name for part in parts]
-    patterns = [pattern for pattern in (f"{name}*", f"*/{name}*") if len(names) > 1 and _means(pattern, solids, names)]
+    pattern = f"{name}*"
     across = max(float(np.linalg.norm(np.ptp(part.box, axis=0))) for part in parts)
-    shown = ", ".join(map(toml, patterns[:1] or names))
+    shown = toml(pattern) if len(names) > 1 and _means(pattern, solids, names) else ", ".join(map(toml, names))
     return f"  # {shown},  # {len(names)} {'part' if len(names) == 1 else 'parts'}, {across:.3g} across: {kind}"
 
 

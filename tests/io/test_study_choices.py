@@ -127,6 +127,18 @@ def test_a_joint_that_is_off_is_gone_and_its_line_says_what_is_left(study):
             assert f"{useful} freedoms of use in {len(read.mechanism.bodies)} bodies" in line and useful > 1
 
 
+def test_parts_with_fractions_in_their_names_are_left_out_by_a_pattern_that_means_them(tmp_path):
+    given = bars()
+    names = {"bolt <1>": "Nut 5/16", "bolt <2>": "Nut 5/16#2"}
+    parts = tuple(replace(each, name=names.get(each.name, each.name)) for each in given.solids)
+    bolts = [["ground", name] for name in names.values()]
+    joints = [each for each in given.joints.values() if each.freedoms]
+    mechanism = Assembly(parts, "mm", "bars").of_joints(fixed=["ground"], rigid=bolts, joints=joints)
+    jk.write_study(mechanism, tmp_path / "study.toml", geometry="bars.step", proposals=())
+    assert '# "Nut 5/16*",  # 2 parts' in (tmp_path / "study.toml").read_text("utf-8")
+    assert Assembly(parts, "mm", "bars").without(["Nut 5/16*"]).names == (*given.parts[:4], "lamp")
+
+
 @pytest.mark.long
 def test_parts_that_nothing_needs_are_named_with_their_size(study):
     given = bars()
