@@ -16,6 +16,7 @@ from jaxtyping import Bool, Float
 
 from jaxkin._arguments import check_known, check_motion
 from jaxkin._grouped import MAX_LINES
+from jaxkin.assembly.kept_contacts import kept_contacts
 from jaxkin.contacts.contact import Contact
 from jaxkin.contacts.separation import Displacements, Gaps
 from jaxkin.contacts.whole_face import is_whole, share_region
@@ -44,7 +45,7 @@ class ContactValidity:
     unit: str
     """Unit of the gaps."""
     unchecked: tuple[str, ...]
-    """Joints with freedoms that have no contacts to check: by hand, or inferred."""
+    """Joints with freedoms that have no contacts to check: inferred, or by hand between what does not touch."""
 
     @property
     def lost(self) -> Bool[np.ndarray, "contacts poses"]:
@@ -117,23 +118,29 @@ def contact_validity(motion: Motion) -> ContactValidity:
     with holes or notches, that of their triangles where it is larger. All sixteen contact states are
     checked. Faces end where their triangles do, so that a curved rim is exact to the height of a chord.
 
-    Contacts are those that the joints of a mechanism were read from: raises ValueError where it has none, and inside
-    `jit`, `vmap` and `grad`.
+    Contacts are those that the joints of a mechanism were read from, or, of joints by hand between solids, as studies
+    write them, those that these joints keep, which are looked for then (`kept_contacts`). Raises ValueError where there
+    are no solids, or no contacts of them, and inside `jit`, `vmap` and `grad`.
     """
     check_motion(motion, "contacts")
     check_known("contacts that end", "jk.contact_validity", motion)
     mechanism = motion.mechanism
-    if not mechanism.solids or not mechanism.contacts:
+    if not mechanism.solids:
         raise ValueError(
-            "contact_validity needs the contacts that joints were read from, and this mechanism has none: those of "
-            "solids, jk.load(files).mechanism(fixed=...), have them; robot files, joints by hand and studies with "
-            "contacts = false have not"
+            "contact_validity needs the contacts that joints were read from, or solids to find some, and this "
+            "mechanism has none: those of solids, jk.load(files).mechanism(fixed=...), have them"
+        )
+    known = mechanism.contacts or kept_contacts(mechanism)
+    if not known:
+        raise ValueError(
+            "contact_validity needs contacts, and no two bodies that a joint joins are in contact so that the joint "
+            "keeps it"
         )
     setting = FaceSetting(mechanism)
     (closed,) = np.nonzero(np.asarray(motion.closed))
     joints, contacts, rows, unchecked = [], [], [], []
     for joint, values in zip(mechanism.all_joints, motion.displacements, strict=True):
-        checked = mechanism.contacts.get(joint.name, ()) if joint.freedoms else ()
+        checked = known.get(joint.name, ()) if joint.freedoms else ()
         if joint.freedoms and not checked:
             unchecked.append(joint.name)
         moved = displacements(joint, np.asarray(values, float)[closed])

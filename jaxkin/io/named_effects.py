@@ -97,11 +97,11 @@ def _clashes_lack(motion: Motion, settings: Mapping[str, Any]) -> str:
 
 
 def _contacts_lack(motion: Motion, settings: Mapping[str, Any]) -> str:
-    if motion.mechanism.contacts:
+    if any(part.faces for part in motion.mechanism.solids):
         return ""
     return (
-        "joints that were read from contacts, and there are none: the file of a robot says its joints itself; in a "
-        "study of drawn solids, leave out contacts = false and [joints]"
+        "solids with faces, and there are none: the file of a robot says its joints itself, without faces; name solids "
+        'in a study, geometry = "machine.step"'
     )
 
 

@@ -8,6 +8,7 @@ import pytest
 import trimesh
 
 import jaxkin as jk
+from jaxkin.assembly.assembly import Assembly
 from jaxkin.examples import path
 from reference.drawn_parts import box, loaded
 
@@ -181,3 +182,21 @@ def test_a_mechanism_by_hand_has_nothing_to_check_and_says_what_to_do():
     motion = jk.Mechanism.build(fixed=["base"], joints=[slide]).sweep({"slide": np.array([0.0, 1.0])})
     with pytest.raises(ValueError, match=r"has none: those of solids, jk\.load"):
         jk.contact_validity(motion)
+
+
+def test_joints_that_were_written_down_are_checked_by_the_contacts_that_they_keep(tmp_path):
+    """As a study has them: the slide keeps the faces of the shoe on the table and on the fence, and loses the same. A
+    hinge across the faces of the table keeps none of them."""
+    found, name = over_a_window(tmp_path)
+    shift = found.joints[name].frames_1[0, 0, 2] * np.arange(0.5, 90.0, 10.0)
+    slide = jk.prismatic("slide", "table", "shoe", axis=found.joints[name].frames_1[0, :3, 2])
+    assembly = Assembly(found.solids, "mm", "shoe")
+    words = {"fixed": ["table"], "rigid": [["table", "fence"]]}
+    checked = jk.contact_validity(assembly.of_joints(joints=[slide], **words).sweep({"slide": shift}))
+    expected = jk.contact_validity(found.sweep({name: shift}))
+    assert {each.faces for each in checked.contacts} == {each.faces for each in expected.contacts}
+    assert checked.joints == ("slide",) * len(expected.joints) and not expected.holds
+    np.testing.assert_allclose(np.sort(checked.gaps, 0), np.sort(expected.gaps, 0), atol=1e-9)
+    across = jk.revolute("slide", "table", "shoe", point=(15, 0, 0), axis=(1, 0, 0))
+    with pytest.raises(ValueError, match="needs contacts"):
+        jk.contact_validity(assembly.of_joints(joints=[across], **words).sweep({"slide": np.zeros(2)}))
