@@ -14,6 +14,7 @@ from jaxkin._names import counted, free_name
 from jaxkin.assembly.at_rest import left_at_rest
 from jaxkin.assembly.ignored_contacts import check_pairs, without
 from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.near_misses import not_accounted_for
 from jaxkin.assembly.needless import with_spinning
 from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.geometry.part import Part
@@ -122,7 +123,8 @@ def from_words(
     kept = [contact for contact in moving if _pair(contact.parts, body) not in by_hand]
     begun = Begun((*joints, *ties), names, tuple(fixed), assembly.unit, assembly.parts)
     mechanism = _joined(begun, kept, body, noise_of(assembly.parts, moving), combine, align)
-    told = (*_left_out(len(contacts) - len(used), replaced, own, body), *told_of(inferences, system), *_told(contacts))
+    told = (*_left_out(len(contacts) - len(used), replaced, own, body), *told_of(inferences, system))
+    told = (*told, *_told(contacts, mechanism))
     bonds = (
         *(Bond(tuple(group)) for group in said.rigid),
         *(Bond(each.parts, each.evidence) for each in inferences if each.joint is None),
@@ -232,9 +234,12 @@ def _aligned(found: FoundJoints, unit: str) -> list[str]:
     ]
 
 
-def _told(contacts: Sequence[Contact]) -> tuple[str, ...]:
-    """Tell near misses and refusals of the detection, where the contacts are a whole result of it."""
-    return (*map(str, contacts.near_misses), *contacts.notes) if isinstance(contacts, Contacts) else ()
+def _told(contacts: Sequence[Contact], mechanism: Mechanism) -> tuple[str, ...]:
+    """Tell near misses that a mechanism does not account for, and refusals of the detection, where the contacts are a whole
+    result of it."""
+    if not isinstance(contacts, Contacts):
+        return ()
+    return (*map(str, not_accounted_for(contacts.near_misses, mechanism)), *contacts.notes)
 
 
 def _refuse_loose(

@@ -17,14 +17,13 @@ from jaxkin._grouped import first_of_each, grouped, kind_of
 from jaxkin._names import counted
 from jaxkin.assembly.gears import gear_proposals
 from jaxkin.assembly.inference.inference import INFERRED
+from jaxkin.assembly.near_misses import not_accounted_for
 from jaxkin.contacts.reason import advises_tolerance
 from jaxkin.geometry.movements import is_length
-from jaxkin.joints.evidence import EvidenceKind
-from jaxkin.topology.bodies import body_of_parts
 
 if TYPE_CHECKING:
     from jaxkin.assembly.assembly import Assembly
-    from jaxkin.contacts.contact import Contacts, NearMiss
+    from jaxkin.contacts.contact import Contacts
     from jaxkin.mechanism.mechanism import Mechanism
     from jaxkin.mechanism.motion import Motion
 
@@ -58,13 +57,12 @@ def print_assembly(assembly: Assembly, contacts: Contacts | None, verbose: bool)
 def print_near_misses(contacts: Contacts, mechanism: Mechanism | None, verbose: bool) -> None:
     """Print pairs of faces that are nearly in contact; by their number only those that a mechanism accounts for.
 
-    These are pairs within one body, and of two bodies with a joint that does not rest on contacts: pins with play,
-    screws in their holes.
+    See `not_accounted_for`; the mechanism tells only the others, too.
     """
     every = contacts.near_misses
     if not every:
         return
-    left = every if mechanism is None else _not_accounted_for(every, mechanism)
+    left = every if mechanism is None else not_accounted_for(every, mechanism)
     known = f", {len(every) - len(left)} of them of bodies and joints that are known otherwise"
     known = f"{known}{'' if verbose else ' (all: --verbose)'}" if len(left) < len(every) else ""
     say(f"\n{counted(len(every), 'near miss', 'no')}{known}")
@@ -73,18 +71,6 @@ def print_near_misses(contacts: Contacts, mechanism: Mechanism | None, verbose: 
         say(f"  {line}")
     if any(advises_tolerance(line) for _, line in shown):
         say(f"  {_GIVE_TOLERANCES}")
-
-
-def _not_accounted_for(every: Iterable[NearMiss], mechanism: Mechanism) -> list[NearMiss]:
-    """Keep the near misses of two bodies that no joint ties, or joints of contacts alone."""
-    body = body_of_parts(mechanism.bodies)
-    tied = {
-        frozenset(body[part] for part in joint.parts)
-        for joint in mechanism.all_joints
-        if joint.evidence is not None and joint.evidence.kind is not EvidenceKind.CONTACT
-    }
-    owners = [(miss, frozenset(body.get(part, part) for part in miss.parts)) for miss in every]
-    return [miss for miss, of_two in owners if len(of_two) == 2 and of_two not in tied]
 
 
 def print_mechanism(mechanism: Mechanism, contacts: Contacts, verbose: bool) -> None:

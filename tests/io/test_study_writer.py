@@ -118,3 +118,17 @@ def test_a_study_says_how_the_tolerances_that_it_advises_are_taken(tmp_path):
     said = (tmp_path / "study.toml").read_text()
     assert "give fit=0.05" in said
     assert said.count("delete contacts = false, rigid and [joints]") == 1
+
+
+def test_near_misses_that_joints_and_bodies_account_for_are_not_in_a_study(tmp_path):
+    """A screw thicker than its hole is one body with the base by inference: to hold both together is done. The play of
+    the lever on its pin is told with its joint."""
+    base = part("base", block((-40, -40, -10), (40, 40, 0)), pin(4.0, 0, 20), ring(3.4, 9.0, -30, -10))
+    lever = part("lever", ring(4.2, 9.0, 0.5, 19.5), block((8, -4, 1), (40, 4, 6)))
+    drawn = assembly(base, lever, part("screw", pin(4.0, -35, -12)))
+    assert any("rigid=[['base', 'screw']]" in str(each) for each in drawn.contacts().near_misses)
+    given = drawn.mechanism(fixed=["base"])
+    assert given.bodies["base"] == ("base", "screw") and given.joints_between("base", "lever")
+    jk.write_study(given, tmp_path / "study.toml", geometry="drawn.step")
+    said = (tmp_path / "study.toml").read_text()
+    assert "nearly" not in said and "give tolerance" not in said and '["base", "screw"]' in said
