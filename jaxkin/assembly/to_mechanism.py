@@ -235,8 +235,8 @@ def _aligned(found: FoundJoints, unit: str) -> list[str]:
 
 
 def _told(contacts: Sequence[Contact], mechanism: Mechanism) -> tuple[str, ...]:
-    """Tell near misses that a mechanism does not account for, and refusals of the detection, where the contacts are a whole
-    result of it."""
+    """Tell near misses that a mechanism does not account for, and refusals of the detection, where the contacts are a
+    whole result of it."""
     if not isinstance(contacts, Contacts):
         return ()
     return (*map(str, not_accounted_for(contacts.near_misses, mechanism)), *contacts.notes)

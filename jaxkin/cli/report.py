@@ -137,16 +137,19 @@ def print_table(headings: Iterable[str], rows: Iterable[Iterable[str]], numbers:
 
 
 def print_motion(motion: Motion) -> None:
-    """Print what became of the poses, and the range that each joint coordinate runs through in those on the branch."""
+    """Print what became of the poses, and the range that each joint coordinate runs through in those on the branch, if
+    there are any."""
     say(str(motion))
-    say()
     closed = np.asarray(motion.on_branch)
+    if not closed.any():
+        return
+    say()
     rows = []
     for name, joint in motion.mechanism.joints.items():
         for column, coordinate in enumerate(joint.coordinates):
             values = np.asarray(motion.coordinates[name])[closed, column]
             scale, unit = (1.0, motion.mechanism.unit) if is_length(coordinate) else (180 / np.pi, "deg")
-            ends = (f"{scale * end:.3f}" for end in (values.min(), values.max())) if values.size else ("", "")
+            ends = (f"{scale * end:.3f}" for end in (values.min(), values.max()))
             rows.append((joint.full_names[column], *ends, unit))
     print_table(("coordinate", "least", "greatest", "unit"), rows, numbers=(1, 2))
 

@@ -17,8 +17,10 @@ from jaxtyping import Array, Bool, Float, Int
 from jaxkin._arguments import by_name, numbers
 from jaxkin._named import Named
 from jaxkin._names import listed, nearest
+from jaxkin._runs import runs
 from jaxkin._traced import traced
 from jaxkin.geometry.pose import is_rigid
+from jaxkin.geometry.movements import is_length
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.joint_motion import part_transforms, point_path
 from jaxkin.mechanism.joint_limits import Breach, breaches, excesses, first_within, limit_report
@@ -30,6 +32,10 @@ from jaxkin.solve.status import Status, is_closed_on_branch
 if TYPE_CHECKING:
     from jaxkin.mechanism.lost_contacts import LostContact
     from jaxkin.mechanism.mechanism import Mechanism
+
+
+_INTERVALS = 3
+"""Intervals of the drive in which poses are closed that a text names, the longest ones: more are noise of a limit."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -177,9 +183,8 @@ class Motion:
             )
         counts = np.bincount(np.asarray(self.status), minlength=len(Status))
         within = first_within(self)
-        told = tally(
-            self.mechanism, self.inputs, counts, largest_residuals(self), self.lost_contacts, breaches(self), within
-        )
+        worst, lost, beyond = largest_residuals(self), self.lost_contacts, breaches(self)
+        told = tally(self.mechanism, self.inputs, counts, worst, lost, beyond, within, _closed_intervals(self))
         if not any(joint.curves for joint in self.mechanism.all_joints):
             return told
         from jaxkin.effects.curve_contacts import curve_contacts
@@ -206,6 +211,24 @@ def _place(part: str, given: Float[Array | np.ndarray, "4 4"]) -> Float[Array, "
     if found.shape != (4, 4) or not (traced(found) or is_rigid(np.asarray(found, float))):
         raise ValueError(f"the place of {part!r} must be {expected}, got {given!r}")
     return jnp.asarray(found)
+def _closed_intervals(motion: Motion) -> str:
+    """Tell between which values of the drive, degrees or lengths, poses are closed on the branch, or between which
+    poses where there are several drives; empty where all or none are."""
+    closed = np.asarray(motion.on_branch)
+    if closed.all() or not closed.any():
+        return ""
+    found = runs(closed)
+    longest = np.sort(np.argsort(found[:, 0] - found[:, 1], kind="stable")[:_INTERVALS])
+    ends = found[longest] - [0, 1]
+    if len(motion.inputs) == 1:
+        ((name, values),) = motion.inputs.items()
+        scale, unit = (1.0, motion.mechanism.unit) if is_length(name.rpartition(".")[2]) else (180.0 / np.pi, "deg")
+        ends, what = scale * np.asarray(values, float)[ends], f" {unit}".rstrip() + f" of {name}"
+        told = [f"at {first:.4g}" if first == last else f"from {first:.4g} to {last:.4g}" for first, last in ends]
+    else:
+        told, what = [f"at pose {one}" if one == last else f"from pose {one} to {last}" for one, last in ends], ""
+    more = f", and in {len(found) - len(told)} shorter intervals" if len(told) < len(found) else ""
+    return f"closed {' and '.join(told)}{what}{more}"
 
 
 def largest_residuals(motion: Motion) -> Float[np.ndarray, " status"]:
@@ -222,13 +245,16 @@ def tally(
     lost: Sequence[LostContact],
     beyond: Sequence[Breach],
     within: int | None = None,
+    intervals: str = "",
 ) -> str:
     """Tell in words what became of poses: how many of each status, the largest residual of closed ones, limits passed,
-    faces left. `within` is that of `limit_report`."""
+    faces left. `within` is that of `limit_report`, `intervals` says where they are closed if they are not everywhere.
+    """
     from jaxkin.mechanism.lost_contact_report import lost_contact_report
 
     lines = [f"Motion of {len(mechanism.parts)} parts over {counts.sum()} poses, driven by {', '.join(inputs)}"]
     lines += [f"  {counts[status]:>6}  {status.name}: {status.message}" for status in Status if counts[status]]
+    lines += [f"  {intervals}"] if intervals else []
     driven = [coordinate(mechanism.linkage, name) for name in inputs]
     if counts[Status.STALLED] and (why := dead_point(mechanism.linkage, driven)):
         lines.append(f"  {why}")

@@ -1,8 +1,13 @@
 """What of an assembly is printed once its mechanism is known."""
 
+from dataclasses import replace
+
+import numpy as np
 import pytest
 
 from jaxkin.cli import report
+from jaxkin.solve.status import Status
+from reference.mechanisms import planar_fourbar
 from reference.round_parts import assembly, block, part, pin, ring
 
 BASE = part("base", block((-40, -40, -10), (40, 40, 0)), pin(4.0, 0, 20))
@@ -33,6 +38,15 @@ def test_near_misses_of_contacts_alone_are_listed(capsys):
     assert "known otherwise" not in said and str(contacts.near_misses[0]) in said
     # the fit that the near miss advises, and once how it is given
     assert "give fit=0.05" in said and said.count("tolerance = { length = 0.001 }") == 1
+
+
+def test_ranges_of_joints_are_printed_of_closed_poses_only(capsys):
+    motion = planar_fourbar(0.7).sweep({"A": np.linspace(0.0, 0.2, 3)})
+    report.print_motion(motion)
+    assert "least" in capsys.readouterr().out
+    report.print_motion(replace(motion, status=np.full(3, Status.UNREACHABLE.value)))
+    said = capsys.readouterr().out
+    assert "3  UNREACHABLE" in said and "least" not in said and "closed from" not in said
 
 
 def test_nothing_is_said_where_nothing_is_nearly_in_contact(capsys):

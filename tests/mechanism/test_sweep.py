@@ -1,5 +1,7 @@
 """What a sweep promises beside the right numbers: statuses, branches, units, order, only what is driven."""
 
+from dataclasses import replace
+
 import jax
 import numpy as np
 import pytest
@@ -30,6 +32,19 @@ def test_a_range_beyond_the_limits_is_unreachable_there_and_right_elsewhere(pose
     # the nearest pose is 1e-3 from the limit, where rounding grows by the inverse square root of that
     np.testing.assert_allclose(error[reachable], 0.0, atol=1e-12)
     assert f"{np.sum(~reachable)}  UNREACHABLE" in str(motion)
+
+
+def test_where_not_all_poses_are_closed_the_text_says_between_which_values_of_the_drive_they_are():
+    mechanism = planar_fourbar(1.0, **NON_GRASHOF)
+    assert "closed from" not in str(mechanism.sweep({"A": np.linspace(-0.1, 0.1, 3)}))
+    inputs = np.radians(np.arange(-150.0, 121.0, 5.0))
+    told = str(mechanism.sweep({"A": inputs}))
+    inside = np.degrees(inputs[np.abs(1.0 + inputs) <= LIMIT])
+    assert f"  closed from {inside.min():.4g} to {inside.max():.4g} deg of A.phi\n" in told
+    motion = mechanism.sweep({"A": np.array([0.0, 2.5, 0.1])})
+    assert "  closed at 0 and at 5.73 deg of A.phi\n" in str(motion)
+    several = replace(motion, inputs=motion.inputs | {"D.phi": motion.inputs["A.phi"]})
+    assert "  closed at pose 0 and at pose 2\n" in str(several)
 
 
 @pytest.mark.parametrize("margin", [1e-2, 1e-4, 1e-6, 1e-8, 1e-10])
