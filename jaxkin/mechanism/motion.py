@@ -19,8 +19,8 @@ from jaxkin._named import Named
 from jaxkin._names import listed, nearest
 from jaxkin._runs import runs
 from jaxkin._traced import traced
-from jaxkin.geometry.pose import is_rigid
 from jaxkin.geometry.movements import is_length
+from jaxkin.geometry.pose import is_rigid
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.joint_motion import part_transforms, point_path
 from jaxkin.mechanism.joint_limits import Breach, breaches, excesses, first_within, limit_report
@@ -211,6 +211,8 @@ def _place(part: str, given: Float[Array | np.ndarray, "4 4"]) -> Float[Array, "
     if found.shape != (4, 4) or not (traced(found) or is_rigid(np.asarray(found, float))):
         raise ValueError(f"the place of {part!r} must be {expected}, got {given!r}")
     return jnp.asarray(found)
+
+
 def _closed_intervals(motion: Motion) -> str:
     """Tell between which values of the drive, degrees or lengths, poses are closed on the branch, or between which
     poses where there are several drives; empty where all or none are."""
