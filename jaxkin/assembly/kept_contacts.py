@@ -8,7 +8,7 @@ import numpy as np
 
 from jaxkin.contacts.contact import Contact
 from jaxkin.contacts.detect import find_contacts
-from jaxkin.contacts.tolerance import Tolerance
+from jaxkin.contacts.tolerance import ContactTolerance
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.part import size
 from jaxkin.joints.joint import Joint
@@ -23,7 +23,7 @@ _TRIED = 2
 """Displacements of a joint that a contact has to allow: one might be special by chance, such as one half a turn on."""
 _FAR = 0.5
 """Radians, and lengths over the size of the assembly, by which a joint is displaced at most: `misfit` converges."""
-_ALLOWED = 4 * Tolerance.angle
+_ALLOWED = 4 * ContactTolerance.angle
 """What a displacement may miss, radians and lengths over the size of the assembly: entries of matrices are sums of a
 few numbers, each within the tolerance of the detection."""
 

@@ -158,7 +158,7 @@ class Extended:
             coefficients = [[self.mp.mpf(float(c)) for c in power] for power in spline.table[:, piece]]
             return curve_point(coefficients, behind, self.mp.sqrt)
         (i, s), (j, t) = (self._piece(*each) for each in zip(spline.knots, spline.start, spline.closed, q, strict=True))
-        powers = np.array([self.mp.mpf(float(c)) for c in spline.table[:, :, i, j].flat], object).reshape(4, 4, 3)
+        powers = np.array([self.mp.mpf(float(c)) for c in np.ravel(spline.table[:, :, i, j])], object).reshape(4, 4, 3)
         height = None if spline.height is None else self.mp.mpf(float(spline.height))
         return patch_point(bicubic(powers, s, t), height, self.mp.sqrt)
 

@@ -29,7 +29,7 @@ class Measured:
         self._axes: dict[float | None, list[CommonAxis]] = {}
         self._stops: dict[tuple[str, int], list[StopFace]] = {}
         self._slanted: dict[tuple[str, int], list[StopFace]] = {}
-        self._inside: dict[tuple[str, str], float] = {}
+        self._inside: dict[tuple[str, str, float], float] = {}
         self._middles: dict[str, Float[np.ndarray, "bores 3"]] = {}
         self._distances: dict[frozenset[str], float] = {}
 

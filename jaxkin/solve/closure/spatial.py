@@ -252,10 +252,10 @@ def _ball_turns(state: State, table: ChainTables) -> Float[Array, "steps 3 3 dis
 def _compose(rotation: Rotation, translation: Vector, pose: Float[Array, "chains 4 4"]) -> tuple[Rotation, Vector]:
     """Compose rotation and translation with a constant pose that follows, chain by chain."""
     entries = jnp.moveaxis(pose[:, :3], 0, 2)[:, :, None, :, None]  # [row, column, 1, chain, 1]
-    columns = sum(rotation[j] * entries[j] for j in range(3))
+    columns = rotation[0] * entries[0] + rotation[1] * entries[1] + rotation[2] * entries[2]
     return columns[:3], translation + columns[3]
 
 
 def _product(a: Rotation, b: Rotation) -> Rotation:
     """Multiply rotation matrices [column, row]."""
-    return sum(a[j] * b[:, j, None] for j in range(3))
+    return a[0] * b[:, 0, None] + a[1] * b[:, 1, None] + a[2] * b[:, 2, None]
