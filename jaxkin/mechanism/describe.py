@@ -92,9 +92,18 @@ def describe_mobility(mechanism: Mechanism) -> list[str]:
     mobility = mechanism.mobility()
     lines = [f"Mobility: {mobility}", *([f"  {mobility.counting}"] if mobility.counting else [])]
     if len(mechanism.bodies) == 1 < len(mechanism.parts):
-        return [*lines, "It cannot move: all its parts are one body."]
+        return [*lines, f"It cannot move: all its parts are one body.{_what_makes_it_one(mechanism)}"]
     moving = len(mechanism.parts) > len(mechanism.fixed)
     return lines if mobility.useful or not moving else [*lines, *_why_it_cannot_move(mechanism, mobility.freedoms)]
+
+
+def _what_makes_it_one(mechanism: Mechanism) -> str:
+    """Say how to see, and take back, the inferences that make one body of all parts; empty without any."""
+    inferred = [each for each in mechanism.bonds if each.evidence.kind is not EvidenceKind.USER]
+    if not inferred:
+        return ""
+    count = f"{counted(len(inferred), 'inference')} {'makes' if len(inferred) == 1 else 'make'} it so"
+    return f" {count}: see the notes. ignore=[(part, part)] takes back that of two parts, infer=False all."
 
 
 def _why_it_cannot_move(mechanism: Mechanism, freedoms: int) -> list[str]:
