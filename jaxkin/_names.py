@@ -88,5 +88,5 @@ def closest(name: object, known: Iterable[str]) -> str:
 
 def counted(number: int, noun: str, none: str = "0") -> str:
     """Write a number with a noun in singular or plural, and `none` for zero."""
-    plural = noun + ("es" if noun.endswith("s") else "s")
+    plural = f"{noun[:-1]}ies" if noun[-1:] == "y" else noun + ("es" if noun.endswith("s") else "s")
     return f"{number or none} {noun if number == 1 else plural}"

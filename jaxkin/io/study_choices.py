@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from jaxkin._grouped import products
-from jaxkin._names import match_parts
+from jaxkin._names import counted, match_parts
 from jaxkin.assembly.assembly import Assembly
 from jaxkin.geometry.part import Part
 from jaxkin.io.study_bodies import Bodies
@@ -168,4 +168,4 @@ def _told(mechanism: Mechanism) -> str:
         return "loops that are open as drawn"
     found = mechanism.mobility()
     count = "one freedom" if found.useful == 1 else f"{found.useful} freedoms"
-    return f"{count} of use in {len(mechanism.bodies)} bodies"
+    return f"{count} of use in {counted(len(mechanism.bodies), 'body')}"

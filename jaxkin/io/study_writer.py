@@ -12,6 +12,7 @@ import numpy as np
 from jaxkin._arguments import check_mechanism
 from jaxkin._files import whole
 from jaxkin._grouped import grouped, kind_of
+from jaxkin._names import counted
 from jaxkin.assembly.inference.inference import INFERRED
 from jaxkin.assembly.inferred import TOLD
 from jaxkin.assembly.wheels import wheels_last
@@ -95,7 +96,7 @@ def _head(
     mechanism: Mechanism, geometry: str | Mapping[str, str] | None, loops: str | None, assumptions: Sequence[str]
 ) -> list[str]:
     moving = sum(joint.freedoms > 0 for joint in mechanism.all_joints)
-    parts = f"{len(mechanism.parts)} parts, {len(mechanism.bodies)} bodies"
+    parts = f"{counted(len(mechanism.parts), 'part')}, {counted(len(mechanism.bodies), 'body')}"
     joints = "1 joint that moves" if moving == 1 else f"{moving} joints that move"
     lines = [f"# {parts}, {joints}; angles in degrees"]
     of_faces = {f"{part.name}: {note}" for part in mechanism.solids for note in part.notes}

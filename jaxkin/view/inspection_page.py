@@ -11,6 +11,7 @@ from jaxtyping import Float
 
 from jaxkin._files import whole
 from jaxkin._grouped import first_of_each, kind_of
+from jaxkin._names import counted
 from jaxkin.assembly.assembly import Assembly
 from jaxkin.assembly.inference.inference import INFERRED
 from jaxkin.contacts.contact import Contacts
@@ -75,8 +76,8 @@ def _scene(found: Mechanism | Assembly, source: str) -> dict:
     joints = sorted(mechanism.all_joints if mechanism else (), key=lambda joint: not joint.freedoms)
     boxes = {part.name: (part.box - centre) / scale for part in solids}
     axes = [(joint, _axis(joint, boxes, centre, scale)) for joint in joints if joint.freedoms]
-    facts = [f"{len(solids)} parts"]
-    facts += [f"{len(bodies)} bodies", f"joints that move: {len(axes)}"] if mechanism else []
+    facts = [counted(len(solids), "part")]
+    facts += [counted(len(bodies), "body"), f"joints that move: {len(axes)}"] if mechanism else []
     return {
         "title": source,
         "subtitle": "  ·  ".join([*facts, f"lengths in {unit_name(found.unit) or 'no known unit'}"]),

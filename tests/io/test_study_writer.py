@@ -120,6 +120,12 @@ def test_a_study_says_how_the_tolerances_that_it_advises_are_taken(tmp_path):
     assert said.count("delete contacts = false, rigid and [joints]") == 1
 
 
+def test_a_study_of_one_body_says_so(tmp_path):
+    drawn = assembly(part("base", block((-40, -40, -10), (40, 40, 0))))
+    jk.write_study(drawn.mechanism(fixed=["base"]), tmp_path / "study.toml", geometry="drawn.step")
+    assert (tmp_path / "study.toml").read_text().startswith("# 1 part, 1 body, 0 joints that move;")
+
+
 def test_near_misses_that_joints_and_bodies_account_for_are_not_in_a_study(tmp_path):
     """A screw thicker than its hole is one body with the base by inference: to hold both together is done. The play of
     the lever on its pin is told with its joint."""

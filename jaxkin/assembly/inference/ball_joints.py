@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.inference import Inference, offset_told
 from jaxkin.assembly.inference.known import Known
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
@@ -21,7 +21,7 @@ def ball_joints(known: Known) -> list[Inference]:
         how = "a clearance" if each.clearance >= 0 else "an interference"
         text = f"the ball of radius {each.ball.radius:.4g} has {how} of {abs(each.clearance):.2g} in its socket"
         sizes = (("radius", each.hole.radius), ("clearance", each.clearance), ("offset", each.offset))
-        evidence = Evidence(EvidenceKind.CLEARANCE, sizes, f"{text} and is {each.offset:.1g} off")
+        evidence = Evidence(EvidenceKind.CLEARANCE, sizes, text + offset_told(each.offset, each.ball.radius))
         joint = pairs.spherical("-".join(parts), *parts, point=each.ball.centre)
         result.append(Inference.of(joint, evidence))
     return result

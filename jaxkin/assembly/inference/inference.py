@@ -9,6 +9,8 @@ from jaxkin.joints.evidence import Evidence
 from jaxkin.joints.from_contacts import joint_forwards
 from jaxkin.joints.joint import Joint
 
+MIN_TOLD = 1e-6
+"""Offset over the radius, up to which it is rounding of the file, and no size."""
 INFERRED = "inferred from"
 """How notes on inferences begin."""
 
@@ -31,3 +33,8 @@ class Inference:
         parts = listed([repr(part) for part in self.parts])
         what = f"{self.joint.kind} joint {self.joint.name!r}" if self.joint else f"{parts} are one body"
         return f"{INFERRED} {self.evidence.kind}: {what}: {self.evidence.text}"
+
+
+def offset_told(offset: float, radius: float) -> str:
+    """Write by how much a pin or a ball of some radius is off, as the end of a text; nothing for what is rounding."""
+    return f" and is {offset:.1g} off" if offset > MIN_TOLD * radius else ""

@@ -8,7 +8,7 @@ import numpy as np
 
 from jaxkin.assembly.inference.axes import MAX_TILT, CommonAxis, shared_length
 from jaxkin.assembly.inference.bores import NEAR_LENGTH, SAME_ANGLE, SAME_LENGTH, Bore
-from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.inference import Inference, offset_told
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.lines import Line
 from jaxkin.assembly.inference.slide_stops import Stop, slide_doubt
@@ -46,7 +46,7 @@ def joint_about(
         kind, text = EvidenceKind.VIRTUAL_PIN, f"equal bores of radius {hole.radius:.4g} without a pin"
     else:
         how = "a clearance" if pair.clearance >= 0 else "an interference"
-        fit = "fits" if exact else f"has {how} of {abs(pair.clearance):.2g} and is {pair.offset:.1g} off"
+        fit = "fits" if exact else f"has {how} of {abs(pair.clearance):.2g}{offset_told(pair.offset, hole.radius)}"
         kind, text = EvidenceKind.CLEARANCE, f"the pin of radius {pair.one.radius:.4g} {fit}"
     doubt = None if touching else slide_doubt(stop, room, hole.radius)
     evidence = Evidence(kind, tuple(sizes), f"{text}; {_told(stop, free, room)}", doubt)

@@ -33,9 +33,19 @@ def test_a_pin_with_play_or_interference_is_a_pin(radius, clearance):
     assert joint.kind == "cylindrical" and joint.evidence.kind == EvidenceKind.CLEARANCE
     assert dict(joint.evidence.sizes)["clearance"] == pytest.approx(clearance)
     np.testing.assert_allclose(joint.frames_1[0, :3, 2], [0, 0, 1], atol=1e-12)
-    fit = f"has {'a clearance' if clearance > 0 else 'an interference'} of {abs(clearance):.2g} "
+    fit = f"has {'a clearance' if clearance > 0 else 'an interference'} of {abs(clearance):.2g};"
     assert any(fit in note and "base-lever" in note for note in mechanism.notes)
     assert np.all(mechanism.sweep({f"{joint.name}.phi": np.linspace(0, 1, 5), f"{joint.name}.z": np.zeros(5)}).closed)
+
+
+@pytest.mark.parametrize("offset", [0.0, 2e-14, 0.1])
+def test_an_offset_that_is_rounding_is_not_told_as_a_size(offset):
+    base = part("base", BASE, pin(4.5, -20, 10))
+    lever = part("lever", ring(5.0, 12.0, -4, 4), block((11, -3, -4), (40, 3, 4)))
+    shift = np.eye(4)
+    shift[0, 3] = offset
+    mechanism = assembly(base, moved(lever, shift)).mechanism(fixed=["base"])
+    assert joint_of(mechanism, "base", "lever").evidence.text.count(" off") == (offset > 1e-6)
 
 
 def test_the_largest_clearance_can_be_said():
