@@ -82,6 +82,32 @@ def test_an_assembly_of_200_parts_fits_on_a_screen_and_all_of_it_can_be_had(many
     assert all(name in every for name in many.names) and len(every.splitlines()) == 1 + 2 * 202
 
 
+def test_long_names_make_no_long_lines_unless_all_is_asked_for():
+    """A four-bar of plates with bushes: its frame has twenty screws, each crank pin a bush of its own, each link a
+    screw before it, and each hinge a slide along itself; the axes are parallel, so that the slides are idle."""
+    name = "welded plate of the intermediate lever, number {}".format
+    links, pins = [name(k) for k in range(4)], np.array([(0, 0, 0), (0, 40, 0), (120, 80, 0), (100, 0, 0)], float)
+    bushes, screws = [f"bush {each}" for each in links], [f"screw {k}" for k in range(20)]
+    parts = tuple(Part(each, (), BOX + 300.0 * place) for place, each in enumerate([*links, *bushes, *screws]))
+    rigid = [*zip(links, bushes, strict=True), [links[0], *screws]]
+    joints = [
+        jk.cylindrical(f"{bushes[k]} in the hole of {links[k - 1]}", links[k - 1], bushes[k], point=p, axis=(0, 0, 1))
+        for k, p in enumerate(pins)
+    ]
+    mechanism = Assembly(parts, "mm", "plates.step").of_joints(fixed=[links[0]], rigid=rigid, joints=joints)
+    text, every = str(mechanism), mechanism.describe(verbose=True)
+    (row,) = [line for line in text.splitlines() if line.startswith(f"  {joints[1].name} ")]
+    assert f"{links[0]} - {links[1]}  cylindrical" in row  # by bodies, not by bushes
+    (loop,) = [line for line in text.splitlines() if line.startswith("  over the bodies")]
+    assert loop.count("welded plate") == 5 and "bush" not in loop
+    (mobility,) = [line for line in text.splitlines() if line.startswith("Mobility")]
+    assert len(mobility) < 500
+    assert "screw 19" not in text.splitlines()[0] and " more" in text.splitlines()[0]
+    assert "screw 19" in every.splitlines()[0]
+    assert all(f"  idle: {each}" in every.splitlines() for each in mechanism.mobility().idle_motions)
+    assert f"  {mechanism.structure.loops[0]}" in every.splitlines()
+
+
 def test_its_mechanism_tells_bodies_in_place_of_what_holds_them_together(many):
     bolts, nuts = ([name for name in many.names if name.startswith(kind)] for kind in ("bolt", "nut"))
     hinge = jk.revolute("A", "base", "arm", point=(0, 0, 0), axis=(0, 0, 1))

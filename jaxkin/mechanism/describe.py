@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,12 +16,18 @@ from jaxkin.joints.evidence import EvidenceKind
 from jaxkin.joints.joint import Joint
 from jaxkin.mobility.infeasible_drive import InfeasibleDrive
 from jaxkin.mobility.open_loops import opening
+from jaxkin.topology.bodies import body_of_parts
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
+    from jaxkin.topology.loops import Loop
 
 
-_NOT_ALWAYS = ("limits", "known from")
+_WIDE = 120
+"""Letters of the path of a loop from which on only its bodies are named, in place of all its parts and joints."""
+_NAMED = 8
+"""Fixed parts that are named: a frame of an assembly has dozens, with all its screws."""
+_NOT_ALWAYS = ("bodies", "limits", "known from")
 """Headings of the columns of the table of joints that are left out where nothing is in them."""
 
 
@@ -28,22 +35,24 @@ def describe_mechanism(mechanism: Mechanism, verbose: bool = False) -> str:
     """Tell joints with their parts and freedoms, loops as paths, mobility, and what was noted on the way from solids.
 
     Of mechanisms with more joints than a screen has lines, the bodies are told in place of the joints that hold them
-    together, and of many loops and notes the first of a kind, unless `verbose`.
+    together, and of many loops and notes the first of a kind, unless `verbose`. Nor are more than a few fixed parts
+    named then, nor all parts and joints of a long loop.
     """
     brief = len(mechanism.all_joints) > SCREEN and not verbose
     unit = f", lengths in {unit_name(mechanism.unit)}" if mechanism.unit else ""
     moving = len(mechanism.parts) - len(mechanism.fixed)
-    fixed = (listed if brief else ", ".join)(mechanism.fixed)
+    few = 1 if brief else _NAMED  # bodies are listed below
+    fixed = ", ".join(mechanism.fixed) if verbose else listed(mechanism.fixed, few)
     lines = [f"Mechanism of {counted(len(mechanism.parts), 'part')} ({moving} moving), fixed: {fixed}{unit}", ""]
     lines += [*_bodies(mechanism), ""] if brief else []
     joints = [joint for joint in mechanism.all_joints if joint.freedoms or not brief]
-    lines += _joints(joints)
+    lines += _joints(joints, body_of_parts(mechanism.bodies))
     if couplings := [f"  {coupling.name}: {coupling}" for coupling in mechanism.linkage.couplings]:
         lines += ["", "Couplings:", *(shortened(couplings) if brief else couplings)]
     lines += ["", f"Motors: {(listed if brief else ', '.join)(mechanism.motors)}"] if mechanism.motors else []
-    loops = [f"{' - '.join((*loop.path, loop.path[0]))}" for loop in mechanism.structure.loops]
+    loops = [_loop(loop, mechanism, verbose) for loop in mechanism.structure.loops]
     lines += ["", f"Loops: {len(loops)}", *(f"  {loop}" for loop in (shortened(loops) if brief else loops))]
-    lines += ["", *describe_mobility(mechanism)]
+    lines += ["", *describe_mobility(mechanism), *(_idle(mechanism) if verbose else [])]
     if doubtful := [(each, doubt) for each in joints if (doubt := each.evidence and each.evidence.doubt)]:
         rows = [f"  {each.name} is taken as {each.kind}, and {doubt}" for each, doubt in doubtful]
         head = f"Doubtful: {len(rows)} of {len(joints)} joints; jaxkin inspect --study tries the other readings"
@@ -54,6 +63,23 @@ def describe_mechanism(mechanism: Mechanism, verbose: bool = False) -> str:
     return "\n".join(lines)
 
 
+def _loop(loop: Loop, mechanism: Mechanism, verbose: bool) -> str:
+    """Write a loop as its path, or, of a long one, as the bodies along it, unless `verbose`."""
+    if verbose or len(str(loop)) <= _WIDE:
+        return str(loop)
+    body = body_of_parts(mechanism.bodies)
+    rows = [mechanism.fixed[0] if row not in body else body[row] for row in loop.path[::2]]
+    told = [row for row, after in pairwise([*rows, rows[0]]) if row != after]
+    return f"over the bodies {' - '.join([*told, told[0]])}" if told else str(loop)
+
+
+def _idle(mechanism: Mechanism) -> list[str]:
+    """List idle motions, of which the mobility names the first ones only."""
+    if opening(mechanism.linkage, mechanism.unit) is not None:
+        return []
+    return [f"  idle: {each}" for each in mechanism.mobility().idle_motions]
+
+
 def _bodies(mechanism: Mechanism) -> list[str]:
     """List the bodies of more than one part, after a line with the number of all bodies."""
     several = [parts for parts in mechanism.bodies.values() if len(parts) > 1]
@@ -61,16 +87,19 @@ def _bodies(mechanism: Mechanism) -> list[str]:
     return [f"Bodies: {len(mechanism.bodies)}", *(f"  {row}" for row in shortened(rows))]
 
 
-def _joints(joints: Sequence[Joint]) -> list[str]:
-    """Write a table of joints: limits if any joint has some, and what a joint is known from if that is in doubt."""
-    rows = [("joint", "parts", "kind", "coordinates", "limits", "known from")]
+def _joints(joints: Sequence[Joint], body: Mapping[str, str]) -> list[str]:
+    """Write a table of joints: the bodies that a joint moves, by their first parts, if it joins other parts of them, as
+    a bush and a pin; limits if any joint has some, and what a joint is known from if that is in doubt."""
+    rows = [("joint", "parts", "bodies", "kind", "coordinates", "limits", "known from")]
     for joint in joints:
         evidence = joint.evidence
         told = evidence is not None and (evidence.kind not in (EvidenceKind.CONTACT, EvidenceKind.USER))
         told = told or (evidence is not None and evidence.kind is EvidenceKind.USER and bool(evidence.text))
         known = str(evidence) if told else ""
         coordinates = ", ".join(joint.coordinates) or "none"
-        rows.append((joint.name, " - ".join(joint.parts), joint.kind, coordinates, _limits(joint), known))
+        owners = tuple(body[part] for part in joint.parts)
+        bodies = " - ".join(owners) if joint.freedoms and owners != joint.parts else ""
+        rows.append((joint.name, " - ".join(joint.parts), bodies, joint.kind, coordinates, _limits(joint), known))
     columns = [column for column in zip(*rows, strict=True) if any(column[1:]) or column[0] not in _NOT_ALWAYS]
     widths = [max(map(len, column)) for column in columns]
     rows = list(zip(*columns, strict=True))

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 
 import numpy as np
 from jaxtyping import Float
@@ -21,6 +22,12 @@ from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.idle import IdleMotion, IdleMotions
 from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
 from jaxkin.mobility.open_loops import check_closed
+
+_LETTERS = 400
+"""Letters of the idle motions that a line on mobility names: those of machines have long names, and one line of them
+may not be longer than the rest of a report."""
+_MOST_IDLE = 8
+"""Idle motions that it names at most."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +82,9 @@ class Mobility:
         return f"{text}, {self.counted_in_subgroups} with those of its subgroup ({', '.join(kinds)})"
 
     def __str__(self) -> str:
-        idle = f", {self.idle_freedoms} of them idle: {listed(list(map(str, self.idle_motions)))}" if self.idle else ""
+        told = list(map(str, self.idle_motions))
+        fitting = max(1, sum(length <= _LETTERS for length in accumulate(map(len, told))))
+        idle = f", {self.idle_freedoms} of them idle: {listed(told, min(_MOST_IDLE, fitting))}" if told else ""
         freedoms = counted(self.freedoms, "freedom")
         if self.spinning:
             freedoms += f" ({self.spins} of them of parts that only spin: {listed(self.spinning)})"
