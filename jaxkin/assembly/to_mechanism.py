@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from jaxkin.assembly.assembly import Assembly
 
 ROUNDED = 1e-12
-"""Radians and lengths in the unit of the file: what is aligned by less was not noise, and is not told."""
+"""Radians, and lengths over the size of the assembly: what is aligned by less is rounding, and is not told."""
 _LISTED = 8
 """Names, or near misses, that a message lists at most."""
 
@@ -175,7 +175,7 @@ def _joined(
     parts, fixed = begun.parts, begun.fixed
     found = joints_from_contacts(contacts, parts, combine, noise, body, begun.joints)
     structured = structure(parts, [(each.name, *each.parts) for each in found.joints], fixed)
-    notes = (*found.notes, *_aligned(found, begun.unit))
+    notes = (*found.notes, *_aligned(found, begun.unit, noise.size))
     linkage = Linkage.of(found.joints, structured)
     mechanism = Mechanism(linkage, begun.unit, begun.solids, notes, contacts=found.contacts)
     if combine:
@@ -225,8 +225,10 @@ def _left_out(ignored: int, replaced: Sequence[Contact], by_hand: Mapping, body:
     return notes
 
 
-def _aligned(found: FoundJoints, unit: str) -> list[str]:
-    if max(found.angle, found.length) < ROUNDED:
+def _aligned(found: FoundJoints, unit: str, size: float) -> list[str]:
+    """Tell by how much joints were aligned, if that is more than rounding in an assembly of some size,
+    which is 0 without contacts."""
+    if found.angle <= ROUNDED and found.length <= ROUNDED * size:
         return []
     return [
         f"for the noise of the file, directions were aligned by at most {found.angle:.1g} rad "

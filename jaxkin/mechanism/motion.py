@@ -221,7 +221,7 @@ def _closed_intervals(motion: Motion) -> str:
         return ""
     found = runs(closed)
     longest = np.sort(np.argsort(found[:, 0] - found[:, 1], kind="stable")[:_INTERVALS])
-    ends = np.take(found, longest, axis=0) - [0, 1]
+    ends = np.stack([found[longest, 0], found[longest, 1] - 1], axis=1)
     if len(motion.inputs) == 1:
         ((name, values),) = motion.inputs.items()
         scale, unit = (1.0, motion.mechanism.unit) if is_length(name.rpartition(".")[2]) else (180.0 / np.pi, "deg")

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 import jaxkin as jk
+from jaxkin.assembly.to_mechanism import _aligned
 from jaxkin.examples import EXAMPLES, path
+from jaxkin.joints.from_contacts import FoundJoints
 
 TURN = np.linspace(0.0, 1.0, 5)
 DRIVE = {"ground-crank": TURN}
@@ -150,3 +152,12 @@ def test_a_joint_by_hand_holds_a_part_that_touches_nothing(fourbar):
     mechanism = loose.mechanism(fixed=["ground"], rigid=[["flag", "coupler"]])
     motion = mechanism.sweep(DRIVE)
     np.testing.assert_array_equal(motion.transforms["flag"], motion.transforms["coupler"])
+
+
+@pytest.mark.parametrize("size", [1.0, 1e3])
+def test_alignment_by_rounding_of_the_size_of_an_assembly_is_not_told(size):
+    """Coordinates of an assembly of a metre, in mm, are rounded by 1e-13: lengths of a few of these are no noise."""
+    for share, told in ((1e-14, False), (1e-9, True)):
+        found = FoundJoints((), {}, 1e-16, share * size, ())
+        assert bool(_aligned(found, "mm", size)) == told
+    assert not _aligned(FoundJoints((), {}, 0.0, 0.0, ()), "mm", 0.0)
