@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from jaxkin.topology.loops import Loop
 
 
-_WIDE = 120
+_WIDE = 140
 """Letters of the path of a loop from which on only its bodies are named, in place of all its parts and joints."""
 _NAMED = 8
 """Fixed parts that are named: a frame of an assembly has dozens, with all its screws."""
