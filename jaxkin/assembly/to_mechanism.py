@@ -226,9 +226,9 @@ def _left_out(ignored: int, replaced: Sequence[Contact], by_hand: Mapping, body:
 
 
 def _aligned(found: FoundJoints, unit: str, size: float) -> list[str]:
-    """Tell by how much joints were aligned, if that is more than rounding in an assembly of some size,
-    which is 0 without contacts."""
-    if found.angle <= ROUNDED and found.length <= ROUNDED * size:
+    """Tell by how much joints were aligned, if that is more than rounding in an assembly of some size; without
+    contacts, where the size is 0, than rounding of one unit of length."""
+    if found.angle < ROUNDED and found.length < ROUNDED * (size or 1.0):
         return []
     return [
         f"for the noise of the file, directions were aligned by at most {found.angle:.1g} rad "
