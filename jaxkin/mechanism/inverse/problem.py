@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float
+from jaxtyping import Array, Bool, Float
 
 from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.geometry.trig import TURN
@@ -109,7 +109,7 @@ class InverseProblem:
 
 
 def _reach(
-    linkage: Linkage, places: Sequence[JointCoordinate], lengths: Float[np.ndarray, " columns"], size: float
+    linkage: Linkage, places: Sequence[JointCoordinate], lengths: Bool[np.ndarray, " columns"], size: float
 ) -> Float[np.ndarray, " columns"]:
     """Say how far each column is moved at random starts: slides by the size of the mechanism, hinges by half a turn,
     screws by as many turns as advance by that size, and what a coupling of two ties to them by what it asks for."""
