@@ -193,6 +193,7 @@ def test_full_turns_of_an_angle_that_moves_a_rack():
     assert not modes.complete and turns in str(modes)
 
 
+@pytest.mark.long
 def test_modes_that_are_many_turns_of_a_screw_away():
     """A ram at the height y over a rod of length 5 from a car that a screw moves: the car is at x or at -x."""
     x, y, pitch, home = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), 0.5, (3.0, 0.0, 0.0)
@@ -211,6 +212,7 @@ def test_modes_that_are_many_turns_of_a_screw_away():
     np.testing.assert_allclose(turns, [(-away - 3.0) / pitch, (away - 3.0) / pitch], atol=1e-10)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("radius", [0.08, 40.0])
 def test_a_pinion_that_follows_hides_no_mode(radius):
     """Behind the same car as above a pinion turns, or a rack behind a large one: two modes, with it and without it."""

@@ -34,6 +34,7 @@ def test_a_range_beyond_the_limits_is_unreachable_there_and_right_elsewhere(pose
     assert f"{np.sum(~reachable)}  UNREACHABLE" in str(motion)
 
 
+@pytest.mark.long
 def test_where_not_all_poses_are_closed_the_text_says_between_which_values_of_the_drive_they_are():
     mechanism = planar_fourbar(1.0, **NON_GRASHOF)
     assert "closed from" not in str(mechanism.sweep({"A": np.linspace(-0.1, 0.1, 3)}))

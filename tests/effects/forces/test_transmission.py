@@ -93,6 +93,7 @@ def test_what_makes_no_sense_is_refused():
         jk.transmission(motion, "D", joint="B")
 
 
+@pytest.mark.long
 def test_outputs_of_several_joints_and_of_none_but_their_own():
     """What the message says to write works, and where there is nothing to write it says where the numbers are."""
     z = (0.0, 0.0, 1.0)
