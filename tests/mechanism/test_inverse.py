@@ -231,7 +231,7 @@ def test_starts_turn_screws_as_far_as_slides_slide():
             jk.prismatic("ram", "frame", "ram", axis=up, point=(0, 4, 0)),
         ],
     )
-    found = jk.inverse(press, {jk.point("ram", (0, 4, 0)): [[0, 4.5, 0]]}, starts=12)
+    found = jk.inverse(press, {jk.point("ram", (0, 4, 0)): [[0, 4.5, 0]]}, starts=40)
     half = np.sqrt(5**2 - 4.5**2)  # of the rod, which is 5 long
     (solutions,) = found.solutions
     np.testing.assert_allclose(np.sort(solutions[:, 1]) + 3, [-half, half], atol=1e-8)  # of the way
