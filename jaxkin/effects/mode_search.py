@@ -16,10 +16,10 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float, Int
 
-from jaxkin.effects.start_ranges import start_ranges
 from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.linkage.host_closure import ClosedLoops, Row
+from jaxkin.linkage.start_ranges import start_ranges
 from jaxkin.mechanism.drive_plan import DrivenLoopGroup
 from jaxkin.solve.closed_form.assembled_axes import assembled_axes
 from jaxkin.solve.closed_form.formula_displacements import joint_displacements
@@ -42,6 +42,8 @@ MAX_FORMULAS = 12
 """Most groups whose signs are tried in all combinations, 4096 of them; of more, poses are searched from many starts."""
 STARTS_AT_ONCE = 1024
 """Starts that are followed together: the Jacobians of so many stay within some megabytes."""
+FARTHEST_SLIDE = 2.0
+"""Most a slide is moved at a start, characteristic lengths: a mechanism is some two wide to each side of its middle."""
 SAME_POSE = 1e-6
 """Largest difference of two poses that are one, radians or characteristic lengths: closed poses are right to 1e-9
 where their Jacobian has singular values down to 1e-5."""
@@ -130,7 +132,7 @@ def find_modes(
     if by_formulas:
         poses, residual, names = _by_formulas(loop_group, inputs)
     else:
-        poses, residual = _from_starts(loop_group, inputs, starts, start_ranges(loop_group, loops))
+        poses, residual = _from_starts(loop_group, inputs, starts, _start_ranges(loop_group, loops))
         names = [""] * len(poses)
     (closed,) = np.nonzero(np.isfinite(residual) & (residual <= max_residual))
     poses, residual, names = poses[closed], residual[closed], [names[k] for k in closed]
@@ -241,6 +243,22 @@ def _from_starts(
         rows.append(np.asarray(found[0]).T)
         residuals.append(np.asarray(found[1]))
     return np.concatenate(rows)[: starts.tries], np.concatenate(residuals)[: starts.tries]
+
+
+def _start_ranges(loop_group: DrivenLoopGroup, loops: ClosedLoops) -> Float[np.ndarray, " columns"]:
+    """Say how far each column of a loop group is moved at a start at most, radians and characteristic lengths."""
+    columns = list(loop_group.columns)
+    chains = [loops.chains[joint] for joint, _ in columns]
+    pitched = [any(MOVEMENTS[movement].has_pitch for movement in chain.movements) for chain in chains]
+    pitch = np.array([chain.pitch if screws else 0.0 for chain, screws in zip(chains, pitched, strict=True)])
+    in_loops = {joint for loop in loop_group.members.loops for joint, _ in loop}
+    couplings = []
+    for numbers, factors, _ in loops.couplings:
+        tied = [loops.columns[number] for number in numbers]
+        if len(tied) == 2 and not np.any(factors[:, 1:]) and all(place in columns for place in tied):
+            couplings.append(([columns.index(place) for place in tied], factors[:, 0]))
+    carried = np.array([joint not in in_loops for joint, _ in columns])
+    return start_ranges(np.array(loop_group.system.is_length), pitch, FARTHEST_SLIDE, couplings, carried)
 
 
 @partial(jax.jit, static_argnums=(0, 1))

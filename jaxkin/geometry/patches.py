@@ -109,14 +109,15 @@ class PatchPoint(NamedTuple):
 
 
 class PatchDerivatives(NamedTuple):
-    """A point of the surface itself, its first and its second derivatives, each the components x, y, z."""
+    """A point of the surface itself, its first and its second derivatives, each the components x, y, z: an array
+    (3, ...), or a sequence of three."""
 
-    point: tuple[Any, ...]
-    u: tuple[Any, ...]
-    v: tuple[Any, ...]
-    uu: tuple[Any, ...]
-    uv: tuple[Any, ...]
-    vv: tuple[Any, ...]
+    point: Any
+    u: Any
+    v: Any
+    uu: Any
+    uv: Any
+    vv: Any
 
 
 @dataclass(frozen=True, eq=False)

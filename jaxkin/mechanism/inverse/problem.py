@@ -19,6 +19,7 @@ from jaxkin.linkage.closure_equations import closure_residual
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.joint_motion import part_transforms
 from jaxkin.linkage.linkage import Linkage
+from jaxkin.linkage.start_ranges import start_ranges
 from jaxkin.mechanism.inverse.aims import Aim, JointAim, PartAim, poses_of
 from jaxkin.mechanism.inverse.bounded import Bounds
 from jaxkin.mechanism.inverse.step import StepEquations
@@ -111,21 +112,16 @@ class InverseProblem:
 def _reach(
     linkage: Linkage, places: Sequence[JointCoordinate], lengths: Bool[np.ndarray, " columns"], size: float
 ) -> Float[np.ndarray, " columns"]:
-    """Say how far each column is moved at random starts: slides by the size of the mechanism, hinges by half a turn,
-    screws by as many turns as advance by that size, and what a coupling of two ties to them by what it asks for."""
-    reach = np.where(lengths, 1.0, np.pi)
-    for column, (joint, _) in enumerate(places):
-        pitch = abs(float(linkage.joints[joint].pitch))
-        if pitch and any(MOVEMENTS[name].has_pitch for name in linkage.joints[joint].movements):
-            reach[column] = max(np.pi, TURN * size / pitch)
-    units = np.where(lengths, size, 1.0)
+    """Say how far each column is moved at random starts, radians and sizes of the mechanism: see `start_ranges`."""
+    pitched = [any(MOVEMENTS[name].has_pitch for name in joint.movements) for joint in linkage.joints]
+    pitch = np.array([float(linkage.joints[k].pitch) / size if pitched[k] else 0.0 for k, _ in places])
+    units, couplings = np.where(lengths, size, 1.0), []
     for coupling in linkage.couplings:
         factors = np.asarray(coupling.coefficients, float)
         columns = [places.index(coordinate(linkage, name)) for name in coupling.coordinates]
         if len(columns) == 2 and factors[:, 0].all() and not factors[:, 1:].any():
-            asked = np.abs(factors[:, 0]) * units[columns] * reach[columns]
-            reach[columns] = asked.max() / (np.abs(factors[:, 0]) * units[columns])
-    return reach
+            couplings.append((columns, factors[:, 0] * units[columns]))
+    return start_ranges(lengths, pitch, 1.0, couplings, np.full(len(places), True))
 
 
 def _turns(linkage: Linkage, aims: Sequence[Aim]) -> list[bool]:
