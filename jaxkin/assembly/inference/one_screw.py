@@ -40,7 +40,7 @@ def clamped_by_one_screw(known: Known, every: Sequence[Stack]) -> list[Inference
     hinge. The other one, on which that lies flat, has the hole that the screw is tight in, or lies on the nut, with a
     hole as wide. Where the screw is in a hole drilled for its thread, a second pin beside it serves as well as the flat
     faces, as that of an adjusting screw: the part cannot turn, and the head keeps it from sliding off. A round part,
-    as the washer at the end of a shaft, may lie on a hub that is one body with the shaft.
+    as the washer at the end of a shaft, may lie on a hub that is one body with the shaft, and no washer of the screw.
     A bar with such screws into several bodies is a link, which turns on them; so are levers, and leaves on two screws.
     A pin with a flag under a screw, itself in a hole of what the screw is tight in, turns on neither.
     Where nothing of that is drawn, either may be meant: the text says how to have the hinge.
@@ -123,9 +123,10 @@ def _under_head(known: Known, stack: Stack, body: Mapping[str, str]) -> list[_Cl
                 washer = is_round_about(known, part, inner.one)
                 if host in shafts and not washer:
                     continue
-                around = [name for name in known.names if body[name] == body[host]] if washer else [host]
+                hub = (name for name in known.names if body[name] == body[host] and name not in stack.fasteners)
                 flat = _is_wide(pair) and any(
-                    known.touches_only_across(part, each, inner.one.axis, pins=not flag) for each in around
+                    known.touches_only_across(part, each, inner.one.axis, pins=not flag)
+                    for each in (host, *(hub if washer else ()))
                 )
                 if flat or _beside(known, part, host, inner, body):
                     why = f"{screw!r} is tight in {host!r}, and its head lies on {part!r}, through which it goes"

@@ -100,6 +100,23 @@ def test_a_washer_between_a_hub_and_the_screw_in_the_end_of_its_shaft_is_clamped
     assert body["washer"] == body["screw"] == body["hub"] == body["shaft"] != body["frame"]
 
 
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("gap", [0.0, 0.2])
+def test_a_wheel_on_a_thrust_washer_turns_on_the_shoulder_of_its_bolt(gap, seed):
+    """The nut presses the frame against the shoulder; the washer, which the bolt holds, is no hub of the wheel. A lever
+    beside it moves whatever is held."""
+    at = (0.0, -70.0)
+    frame = part("frame", ring(3.0, 40.0, -6.0, 0.0), block((-60, -90, -6), (60, -38, 0)), pin(5.0, 0.0, 12.0, at))
+    lever = part("lever", ring(5.05, 9.0, 0.0, 8.0, at), block((8, -74, 0), (50, -66, 8)))
+    bolt = part("bolt", pin(3.0, -12.0, 0.0), pin(4.0, 0.0, 9.0 + gap), pin(7.0, 9.0 + gap, 12.0 + gap))
+    nut = part("nut", ring(3.0, 5.5, -9.0, -6.0))
+    washer = part("washer", ring(4.05, 8.0, 0.0, 1.0))
+    wheel = part("wheel", ring(4.25, 40.0, 1.0, 9.0))
+    mechanism = anywhere(assembly(frame, lever, bolt, nut, washer, wheel), seed).mechanism(fixed=["frame"])
+    body = owners(mechanism)
+    assert body["bolt"] == body["nut"] == body["frame"] != body["wheel"]
+
+
 def test_a_cover_that_touches_nothing_is_not_what_is_proposed_to_be_fixed():
     holes = [(0.0, 0.0), (150.0, 0.0)]
     housing = part("housing", *(pin(5.0, 0.0, 14.0, at) for at in holes), block((-60, -20, -20), (200, 20, 0)))
