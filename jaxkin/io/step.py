@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import re
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +19,7 @@ from jaxkin.io.step_check import far_away, missing
 from jaxkin.io.step_colors import one_color_each
 from jaxkin.io.step_convert import convert
 from jaxkin.io.step_glb import Instance, instances
+from jaxkin.io.step_placements import FilePlacements
 from jaxkin.io.step_rounding import corner_rounding, place_rounding, text_rounding
 from jaxkin.io.step_solid import Solid, make_solid
 from jaxkin.io.step_tree import nameless_occurrences, placed_parts
@@ -60,7 +62,8 @@ def read_step(
     unit_name, metres = length_unit(text, path.name)
     off, relative = uncertainty(text), text_rounding(text)
     placed = placed_parts(text, path.name)
-    found, defects = _instances(one_color_each(text).encode("latin-1"), nameless_occurrences(text), limit)
+    read = partial(instances, products=nameless_occurrences(text), placements=FilePlacements(text))
+    found, defects = _instances(one_color_each(text).encode("latin-1"), read, limit)
     defects += missing(text, placed, found) + far_away(found)
     names = unique(_name(instance, number) for number, instance in enumerate(found, start=1))
     solids: dict[bytes, Solid] = {}  # many instances are of one
@@ -96,12 +99,14 @@ def read_step(
     return tuple(parts), unit_name
 
 
-def _instances(data: bytes, products: Mapping[str, str], limit: TimeLimit) -> tuple[list[Instance], list[str]]:
-    """Read the solids of a file as placed meshes, one at least, and what is said about its damages."""
+def _instances(
+    data: bytes, read: Callable[[bytes], Iterable[Instance]], limit: TimeLimit
+) -> tuple[list[Instance], list[str]]:
+    """Convert the solids of a file, and `read` them as placed meshes, one at least; also what is said of damages."""
     glb, damages = convert(data, limit)
-    found = list(instances(glb, products))
+    found = list(read(glb))
     if not all(instance.complete for instance in found):  # of a product some is coloured, and some is not
-        plain = list(instances(convert(data.replace(b"STYLED_ITEM", b"UNSTYLED_ITEM"), limit)[0], products))
+        plain = list(read(convert(data.replace(b"STYLED_ITEM", b"UNSTYLED_ITEM"), limit)[0]))
         colors = [it.color for it in found] if len(plain) == len(found) else [None] * len(plain)
         found = [replace(bare, color=color) for bare, color in zip(plain, colors, strict=True)]
     if not found:

@@ -61,14 +61,14 @@ def unsound(triangles: Triangles, tolerance: float) -> list[Defect]:
 def far_away(found: Sequence[Instance]) -> list[str]:
     """Find parts so far from an origin that single precision, in which they are read, leaves too few digits of them.
 
-    Corners are from the origin of their part, places from that of the assembly; lengths in metres.
+    Corners are from the origin of their part, rounded places from that of the assembly; lengths in metres.
     """
     worst, least = None, 0.0
     for instance in found:
         corners = instance.mesh.triangles.reshape(-1, 3)
         if len(corners):
             size = float(np.linalg.norm(np.ptp(corners, axis=0))) or np.finfo(float).tiny
-            far = max(float(np.abs(corners).max()), float(np.abs(instance.pose[:3, 3]).max()))
+            far = max(np.abs(each).max() for each in (corners, *_rounded_places(instance)))
             if far / size > max(least, MAX_FAR):
                 worst, least = instance, far / size
     if worst is None:
@@ -78,6 +78,11 @@ def far_away(found: Sequence[Instance]) -> list[str]:
         f"the part {name!r} is {least:.2g} times its size from the origin, so that it is right to "
         f"{least * SINGLE:.1g} of its size only: export it nearer to the origin"
     ]
+
+
+def _rounded_places(instance: Instance) -> list[Points]:
+    """List where assemblies place an instance, as far as that is rounded more than the file does."""
+    return [pose[:3, 3] for pose, rounding in instance.places if rounding]
 
 
 def missing(text: str, placed: int, found: Sequence[Instance]) -> list[str]:

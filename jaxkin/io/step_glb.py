@@ -19,6 +19,7 @@ from jaxtyping import Float, Int
 
 from jaxkin.geometry.pose import Pose
 from jaxkin.io.names import cleaned, unique
+from jaxkin.io.step_placements import SINGLE, FilePlacements, Placement
 
 Color = tuple[float, float, float]
 
@@ -60,8 +61,8 @@ class Instance:
     """Of the instance and of the product; either may be empty or made up by a translator."""
     path: tuple[str, ...]
     """Names of the assemblies that the instance is in, below that of the whole file, outermost first."""
-    places: tuple[Pose, ...]
-    """Of the assemblies that the instance is in, and of itself, outermost first: rigid to float64, right to float32."""
+    places: tuple[Placement, ...]
+    """Of the assemblies that the instance is in, and of itself, outermost first: rigid to float64."""
     mesh: Mesh
     color: Color | None
     complete: bool
@@ -70,26 +71,29 @@ class Instance:
     @property
     def pose(self) -> Pose:
         """From the frame of the mesh to the world."""
-        return reduce(np.matmul, self.places, np.eye(4))
+        return reduce(np.matmul, (place.pose for place in self.places), np.eye(4))
 
 
-def instances(glb: bytes, products: Mapping[str, str] | None = None) -> Iterator[Instance]:
+def instances(
+    glb: bytes, products: Mapping[str, str] | None = None, placements: FilePlacements | None = None
+) -> Iterator[Instance]:
     """List all placed meshes that have triangles, in the order of the file.
 
-    `products` are the names of sub-assemblies by what the reader calls them where they have none of their own.
+    `products` are the names of sub-assemblies by what the reader calls them where they have none of their own;
+    `placements` are those of the text of the file, which the reader rounds.
     """
     length = int.from_bytes(glb[12:16], "little")
     tree, binary = json.loads(glb[20 : 20 + length]), glb[28 + length :]
     roots = tree["scenes"][tree.get("scene", 0)].get("nodes", [])
     read: dict[str, Mesh] = {}  # by the arrays, which all instances of a product name
-    todo: list[tuple[int, tuple[Pose, ...], tuple[str, ...], tuple[str, ...]]]
+    todo: list[tuple[int, tuple[Placement, ...], tuple[str, ...], tuple[str, ...]]]
     todo = [(node, (), (), inner) for node, inner in reversed(_inside(tree, roots, (), products or {}))]
     if len(roots) == 1:  # the assembly of the file, whose name tells no part from another
         todo = [(roots[0], (), (), ())]
     while todo:
         index, above, path, inner = todo.pop()
         node = tree["nodes"][index]
-        places = (*above, _rigid(node)) if "matrix" in node else above
+        places = (*above, _placement(node, placements)) if "matrix" in node else above
         below = _inside(tree, node.get("children", []), inner, products or {})
         todo += [(child, places, inner, deeper) for child, deeper in reversed(below)]
         mesh: dict[str, Any] = tree["meshes"][node["mesh"]] if "mesh" in node else {"primitives": []}
@@ -111,16 +115,18 @@ def _inside(
     return [(node, (*path, name)) for node, name in zip(nodes, names, strict=True)]
 
 
-def _rigid(node: dict[str, Any]) -> Pose:
-    """Find the nearest rigid pose to the float32 placement of a node."""
+def _placement(node: dict[str, Any], placements: FilePlacements | None) -> Placement:
+    """Find the placement of a node in the text of the file, or else the nearest rigid one to the float32 numbers."""
     pose = np.array(node["matrix"], float).reshape(4, 4).T
+    if placements and (full := placements.rounded_to(pose)) is not None:
+        return Placement(full, 0.0)
     left, stretch, right = np.linalg.svd(pose[:3, :3])
     if np.abs(stretch - 1).max() > 1e-4 or np.linalg.det(left @ right) < 0:
         raise ValueError(
             f"the instance {node.get('name')!r} is scaled or mirrored in its assembly: export it as a part"
         )
     pose[:3, :3] = left @ right
-    return pose
+    return Placement(pose, SINGLE)
 
 
 def _mesh(tree: dict[str, Any], binary: bytes, primitives: list[dict[str, Any]]) -> Mesh:

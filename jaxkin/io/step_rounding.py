@@ -8,9 +8,7 @@ import numpy as np
 
 from jaxkin.geometry.pose import apply
 from jaxkin.io.step_glb import Instance
-
-SINGLE = 2.0**-24
-"""Rounding of single precision, relative."""
+from jaxkin.io.step_placements import SINGLE
 
 _TRIPLES = re.compile(r"\b(?:CARTESIAN_POINT|DIRECTION)\s*\(\s*'[^']*'\s*,\s*\(([^()]*)\)")
 
@@ -59,15 +57,15 @@ def place_rounding(instance: Instance, relative: float) -> float:
     """Bound how far rounding may have moved the surfaces of an instance, in metres.
 
     `relative` is the rounding of the numbers of the file. What is not placed is in the coordinates of the file, exactly
-    as these are; placements are read in single precision.
+    as these are; placements that are not found in its text are in single precision.
     """
     points = instance.mesh.outline
     error = relative * _reach(points)
-    for place in reversed(instance.places):
-        turned = not np.isin(place[:3, :3], (-1.0, 0.0, 1.0)).all()
-        lever = np.linalg.norm(place[:3, 3]) + (np.sqrt(3) * _reach(points) if turned else 0.0)
-        error += (SINGLE + relative) * float(lever)
-        points = apply(place, points)
+    for pose, rounding in reversed(instance.places):
+        turned = not np.isin(pose[:3, :3], (-1.0, 0.0, 1.0)).all()
+        lever = np.linalg.norm(pose[:3, 3]) + (np.sqrt(3) * _reach(points) if turned else 0.0)
+        error += (rounding + relative) * float(lever)
+        points = apply(pose, points)
     return error
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import warnings
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 from jaxkin.geometry.units import METRES
 
@@ -20,6 +20,31 @@ def length_unit(text: str, name: str) -> tuple[str, float]:
     `name` is what messages call the file. Raises ValueError for a unit that is not in `METRES`; a file without unit is
     read in millimetres, as the kernel does, with a warning.
     """
+    for said, metres in _length_units(text):
+        for unit, value in METRES.items():
+            if unit and metres and abs(value / metres - 1) < 1e-6:
+                return unit, metres
+        known = ", ".join(filter(None, METRES))
+        raise ValueError(f"{name} is in the length unit {' '.join(said.split())[:200]}: export it in {known}")
+    warnings.warn(f"{name} does not say its length unit: taken for mm", stacklevel=2)
+    return "mm", METRES["mm"]
+
+
+def units_of_shapes(text: str) -> set[float]:
+    """Find the metres of all length units of a file: parts may be in another one than what they are placed in."""
+    return {metres for _, metres in _length_units(text) if metres}
+
+
+def uncertainty(text: str) -> float:
+    """Find the largest deviation of geometry that a file says it has, in its length unit; 0 where it says none."""
+    statements = (statement for statement in text.split(";") if "UNCERTAINTY_MEASURE_WITH_UNIT" in statement)
+    number = re.compile(r"LENGTH_MEASURE\s*\(\s*(\d+\.?\d*(?:[Ee][+-]?\d+)?)\s*\)")
+    found = [match[1] for match in map(number.search, statements) if match]
+    return max(map(float, found), default=0.0)
+
+
+def _length_units(text: str) -> Iterator[tuple[str, float | None]]:
+    """Yield what defines the length unit of each context of shapes, and its metres, None where these cannot be told."""
     # statement by statement: a pattern over all of the text may take a time that grows with its square
     statements = [statement for statement in text.split(";") if "UNIT" in statement]
     units = {
@@ -29,23 +54,7 @@ def length_unit(text: str, name: str) -> tuple[str, float]:
         context = re.search(r"GLOBAL_UNIT_ASSIGNED_CONTEXT\s*\(\s*\(([^()]*)\)", statement)
         for number in re.findall(r"#(\d+)", context[1]) if context else ():
             if "LENGTH_UNIT" in units.get(number, ""):
-                metres = _metres(units, number)
-                for unit, value in METRES.items():
-                    if unit and metres and abs(value / metres - 1) < 1e-6:
-                        return unit, metres
-                known = ", ".join(filter(None, METRES))
-                said = " ".join(units[number].split())[:200]
-                raise ValueError(f"{name} is in the length unit {said}: export it in {known}")
-    warnings.warn(f"{name} does not say its length unit: taken for mm", stacklevel=2)
-    return "mm", METRES["mm"]
-
-
-def uncertainty(text: str) -> float:
-    """Find the largest deviation of geometry that a file says it has, in its length unit; 0 where it says none."""
-    statements = (statement for statement in text.split(";") if "UNCERTAINTY_MEASURE_WITH_UNIT" in statement)
-    number = re.compile(r"LENGTH_MEASURE\s*\(\s*(\d+\.?\d*(?:[Ee][+-]?\d+)?)\s*\)")
-    found = [match[1] for match in map(number.search, statements) if match]
-    return max(map(float, found), default=0.0)
+                yield units[number], _metres(units, number)
 
 
 def _metres(units: Mapping[str, str], number: str, depth: int = 0) -> float | None:

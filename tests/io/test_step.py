@@ -200,8 +200,8 @@ def test_a_face_without_triangles_is_named(monkeypatch):
     """The kernel cannot triangulate every face; here the triangles of one are taken away."""
     import jaxkin.io.step as step
 
-    def without_face_3(*given):
-        for whole in instances(*given):
+    def without_face_3(*given, **named):
+        for whole in instances(*given, **named):
             mesh = whole.mesh
             arrays = {name: getattr(mesh, name)[mesh.face_of != 2] for name in ("triangles", "normals", "face_of")}
             yield replace(whole, mesh=replace(mesh, **arrays))

@@ -14,6 +14,7 @@ from jaxkin.io.step_rounding import text_rounding
 
 HALVES = (Path(__file__).parent / "data" / "halves.step").read_text()
 CRANK = Path(path("slider_crank")).read_text()
+FAR = (123456.789, -54321.123, 7654.321)
 NUMBERS = re.compile(r"((?:CARTESIAN_POINT|DIRECTION)\s*\('[^']*',\s*)\(([^()]*)\)")
 
 
@@ -63,10 +64,21 @@ def test_a_pin_beside_the_middle_of_its_hole_is_seen_however_far_its_shape_is_fr
         assert default_length(assembly.parts) < 1.01e-5 * size(assembly.parts)
 
 
-def test_placements_far_away_are_rounded_to_single_precision_which_a_note_tells(tmp_path):
-    """At 1.4e5 mm single precision has steps of 0.0156 mm: places are off by up to 0.0078 along each axis."""
+def test_placements_far_away_are_those_of_the_file(tmp_path):
+    """At 1.4e5 mm double precision has steps of 3e-11 mm; the reader rounds places to steps of 0.0156 mm."""
+    near = load(tmp_path, CRANK)
+    far = load(tmp_path, placed(CRANK, FAR))
+    assert touching(far.contacts()) == touching(near.contacts())
+    assert max(contact.misfit for contact in far.contacts()) < 1e-9
+    assert default_length(far.parts) == pytest.approx(default_length(near.parts), rel=1e-6)
+    assert not far.contacts().notes
+
+
+def test_placements_far_away_that_are_rounded_to_single_precision_are_told(tmp_path, monkeypatch):
+    """Where the text does not have them: places are off by up to 0.0078 mm along each axis."""
     near = load(tmp_path, CRANK).contacts()
-    assembly = load(tmp_path, placed(CRANK, (123456.789, -54321.123, 7654.321)))
+    monkeypatch.setattr("jaxkin.io.step.FilePlacements", lambda text: None)
+    assembly = load(tmp_path, placed(CRANK, FAR))
     far = assembly.contacts()
     assert touching(far) == touching(near)
     assert max(contact.misfit for contact in far) > 1e-3 * default_length(assembly.parts)
@@ -79,7 +91,7 @@ def test_placements_far_away_are_rounded_to_single_precision_which_a_note_tells(
 def test_a_file_of_few_digits_keeps_its_contacts_far_away(tmp_path):
     """Seven digits leave steps of 0.1 mm at 1e5 mm."""
     near = load(tmp_path, CRANK).contacts()
-    assembly = load(tmp_path, placed(CRANK, (123456.789, -54321.123, 7654.321), digits=7))
+    assembly = load(tmp_path, placed(CRANK, FAR, digits=7))
     assert touching(assembly.contacts()) == touching(near)
     assert 0.1 < default_length(assembly.parts) < 0.3
 

@@ -1,0 +1,122 @@
+"""Placements are read in full from the text of a STEP file, where its reader hands them on in single precision."""
+
+import re
+
+import numpy as np
+import pytest
+
+from jaxkin.examples import path
+from jaxkin.geometry.pose import inverse
+from jaxkin.io.load import load
+from jaxkin.io.step_placements import FilePlacements
+
+EXAMPLES = ("fourbar", "slider_crank", "cam", "eighteen_bars", "air_cylinder")
+
+FRAME = """#{0}=AXIS2_PLACEMENT_3D('',#{0}1,#{0}2,#{0}3);
+#{0}1=CARTESIAN_POINT('',({1},{2},{3}));#{0}2=DIRECTION('a name (of, two)',({4}));#{0}3=DIRECTION('',({5}));
+"""
+UNIT = """#7{0}=(LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT({1},.METRE.));
+#8{0}=(GEOMETRIC_REPRESENTATION_CONTEXT(3) GLOBAL_UNIT_ASSIGNED_CONTEXT((#7{0})) REPRESENTATION_CONTEXT('',''));
+"""
+MILLIMETRES = UNIT.format(1, ".MILLI.")
+AT_HOME = FRAME.format(1, 0, 0, 0, "0.,0.,1.", "1.,0.,0.")
+TURNED = FRAME.format(2, 123.456789, -54.321123, 7.654321, "0.6,0.,0.8", "0.8,0.1,-0.5")
+
+
+def placed(one="#1", other="#2"):
+    return f"#5=ITEM_DEFINED_TRANSFORMATION('a','b (c)',{one},{other});"
+
+
+def pose(point=(0.123456789, -0.054321123, 0.007654321)):
+    z = np.array([0.6, 0.0, 0.8])
+    x = np.array([0.8, 0.1, -0.5])
+    x = (x - (x @ z) * z) / np.linalg.norm(x - (x @ z) * z)
+    found = np.eye(4)
+    found[:3] = np.stack([x, np.cross(z, x), z, point], axis=1)
+    return found
+
+
+def single(matrix):
+    return matrix.astype(np.float32).astype(float)
+
+
+def test_a_placement_is_found_by_its_numbers_in_single_precision():
+    found = FilePlacements(MILLIMETRES + AT_HOME + TURNED + placed()).rounded_to(single(pose()))
+    assert np.abs(single(pose()) - pose()).max() > 1e-9
+    np.testing.assert_allclose(found, pose(), atol=1e-15)
+
+
+def test_translators_differ_in_which_frame_is_placed_in_which():
+    found = FilePlacements(MILLIMETRES + AT_HOME + TURNED + placed("#2", "#1")).rounded_to(single(pose()))
+    np.testing.assert_allclose(found, pose(), atol=1e-15)
+    found = FilePlacements(MILLIMETRES + AT_HOME + TURNED + placed()).rounded_to(single(inverse(pose())))
+    np.testing.assert_allclose(found, inverse(pose()), atol=1e-15)
+
+
+def test_mapped_items_place_too():
+    text = "#5=REPRESENTATION_MAP(#1,#9);#6=MAPPED_ITEM('',#5,#2);"
+    found = FilePlacements(MILLIMETRES + AT_HOME + TURNED + text).rounded_to(single(pose()))
+    np.testing.assert_allclose(found, pose(), atol=1e-15)
+
+
+def test_assemblies_may_be_in_another_unit_than_their_parts():
+    file = FilePlacements(UNIT.format(1, "$") + UNIT.format(2, ".MILLI.") + AT_HOME + TURNED + placed())
+    for point in (pose()[:3, 3], 1000 * pose()[:3, 3]):
+        np.testing.assert_allclose(file.rounded_to(single(pose(point))), pose(point), rtol=1e-14, atol=1e-15)
+
+
+def test_a_frame_without_directions_is_that_of_the_world():
+    bare = "#1=AXIS2_PLACEMENT_3D('',#11,$,$);#11=CARTESIAN_POINT('',(0.,0.,0.));"
+    found = FilePlacements(MILLIMETRES + bare + TURNED + placed()).rounded_to(single(pose()))
+    np.testing.assert_allclose(found, pose(), atol=1e-15)
+
+
+def test_of_two_placements_that_single_precision_does_not_tell_apart_neither_is_taken():
+    other = FRAME.format(3, 123.456789, -54.3211231, 7.654321, "0.6,0.,0.8", "0.8,0.1,-0.5")
+    twice = placed() + placed("#1", "#3").replace("#5=", "#6=")
+    assert FilePlacements(MILLIMETRES + AT_HOME + TURNED + other + twice).rounded_to(single(pose())) is None
+    same = TURNED.replace("#2", "#3")
+    assert FilePlacements(MILLIMETRES + AT_HOME + TURNED + same + twice).rounded_to(single(pose())) is not None
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        placed(),
+        MILLIMETRES + AT_HOME + placed(),
+        MILLIMETRES + AT_HOME + TURNED.replace("0.6,0.,0.8", "0.,0.,0.") + placed(),
+        MILLIMETRES + AT_HOME + TURNED.replace("0.6,0.,0.8", "1e300,1e300,0.") + placed(),
+        MILLIMETRES + AT_HOME + TURNED.replace("0.6,0.,0.8", "0.6,0.,0.8.1") + placed(),
+        MILLIMETRES + AT_HOME + TURNED.replace("0.6,0.,0.8", "0.6,0.8") + placed(),
+        MILLIMETRES + AT_HOME + TURNED.replace("#22,", "$,") + placed(),
+        MILLIMETRES + AT_HOME + TURNED.replace("#23)", "#2)") + placed(),
+        MILLIMETRES + AT_HOME + TURNED + placed("#1", "#99"),
+        MILLIMETRES + AT_HOME + TURNED + "#5=ITEM_DEFINED_TRANSFORMATION('','',#1);",
+        MILLIMETRES + AT_HOME + TURNED + "#6=MAPPED_ITEM('',#5,#2);",
+    ],
+)
+def test_what_is_not_told_whole_is_not_found(text):
+    assert FilePlacements(text).rounded_to(single(pose())) is None
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_parts_of_the_examples_meet_as_their_files_say(name):
+    """Their texts have thirteen digits, so that faces in contact are apart by 1e-12 of some 100 mm, where single
+    precision left 1e-6."""
+    assembly = load(path(name))
+    assert max(contact.misfit for contact in assembly.contacts()) < 1e-9
+    assert max(part.surface_resolution for part in assembly.parts) < 1e-10
+
+
+def test_a_placement_that_the_text_does_not_have_is_rounded(tmp_path):
+    """A frame whose second direction is left to the reader: its part is known to single precision."""
+    text = path("fourbar").read_text()
+    frame = re.findall(r"ITEM_DEFINED_TRANSFORMATION\('','',#\d+,#(\d+)\)", text)[0]
+    along, across = re.findall(rf"#{frame} = AXIS2_PLACEMENT_3D\('',#\d+,(#\d+),(#\d+)\)", text)[0]
+    bare = re.sub(rf"(#{frame} = AXIS2_PLACEMENT_3D\('',#\d+,{along},){across}\)", r"\1$)", text)
+    assert bare != text
+    file = tmp_path / "bare.step"
+    file.write_text(bare)
+    rounded = [part.surface_resolution for part in load(file).parts]
+    assert sum(each > 1e-7 for each in rounded) == 1
