@@ -23,7 +23,7 @@ _NONE = 1e-12
 """Radians, and metres, that are none: what the text leaves of directions at right angles."""
 
 _MAX_NEAR = 100
-"""Placements that are looked at; real files have a few so near to each other, each with its inverse and in two units."""
+"""Placements that are looked at; real files have a few so near each other, each with its inverse, in two units."""
 
 _STATEMENT = re.compile(r"\s*#(\d+)\s*=\s*(\w+)\s*\((.*)\)\s*", re.S)
 _REFERENCE = re.compile(r"#(\d+)|\$")
