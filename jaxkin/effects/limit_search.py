@@ -10,11 +10,12 @@ import numpy as np
 
 from jaxkin._names import listed
 from jaxkin.effects.mode_search import SAME_POSE, PoseFeatures
-from jaxkin.effects.motion_curve import FIRST_STEP, CurvePose, MotionCurve
+from jaxkin.effects.motion_curve import FIRST_STEP, LONGEST_STEP, CurvePose, MotionCurve
 from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.trig import TURN
 from jaxkin.joints.joint import Joint, JointCoordinate
+from jaxkin.linkage.host_closure import Row
 from jaxkin.mobility.infeasible_drive import infeasible_drive, undriven_freedoms
 
 if TYPE_CHECKING:
@@ -26,7 +27,11 @@ together."""
 MAX_TURNS = 64
 """Full turns of a driven angle after which no limit is expected."""
 FARTHEST = 100.0
-"""Displacement of a driven slide after which no limit is expected, characteristic lengths."""
+"""Displacement of a driven slide after which no limit is expected, characteristic lengths; the same of others while the
+drive hardly moves."""
+CREEPS = 1e-4
+"""Absolute entry of the drive in the unit tangent below which it hardly moves: at a slide of 100 sizes it is some 1e-5
+where the slide grows without end, as the root of what is left to the drive."""
 BESIDE = 0.01
 """Displacement to a pose beside the limit of a drive that is proposed, radians and characteristic lengths. The drive is
 then 1e-5 to 1e-4 from its limit: far above the 1e-10 to which limits are found."""
@@ -43,7 +48,10 @@ class LimitKind(StrEnum):
     RANGE = "range"
     """A coordinate is at an end of its range."""
     NONE = "none"
-    """There is no limit: the motion repeats after full turns, or goes on for as long as it was followed."""
+    """There is no limit: the motion repeats after full turns, or the drive goes on for as far as it was followed."""
+    FAR = "far"
+    """Other coordinates went as far as they are followed, and the drive no farther: slides that grow without end, as
+    where the axes of a chain of cylindrical pairs come to lie in one plane."""
     LOST = "lost"
     """The motion could not be followed farther: a singular pose that is neither a lock nor passed."""
 
@@ -65,7 +73,8 @@ class FoundLimit(NamedTuple):
     column: int | None
     """The column whose range ends; None for other kinds."""
     repeats: bool
-    """Whether the mechanism is in its assembled pose again, after full turns of the drive."""
+    """Whether the motion repeats: after full turns of the drive the mechanism is in its assembled pose again, and no
+    coordinate with a range has turned on."""
 
 
 def find_limit(
@@ -78,9 +87,11 @@ def find_limit(
 ) -> FoundLimit:
     """Follow the drive in a direction, 1 or -1, from the assembled pose to its first limit.
 
-    `turns` says whether the drive is an angle, so that the motion may repeat after full turns.
+    `turns` says whether the drive is an angle, so that the motion may repeat after full turns. Where it does but for
+    coordinates that have turned on, the periods that surely stay within the ranges are passed over.
     """
-    here, length, number = begun, FIRST_STEP, 1
+    here, length, number, ahead = begun, FIRST_STEP, 1, None
+    lowest = highest = begun.q
     for _ in range(MAX_CURVE_STEPS):
         taken = curve.step(here, length)
         if taken is None:
@@ -92,14 +103,24 @@ def find_limit(
                 located.append((*curve.locate(here, end, event.value), event))
         if located:
             _, at, first = min(located, key=lambda each: each[0])
-            repeats = first.kind is LimitKind.NONE and _is_home(curve, at, features)
-            if first.kind is not LimitKind.NONE or repeats or number == MAX_TURNS:
-                return FoundLimit(first.kind, at, first.column, repeats)
+            if first.kind is not LimitKind.NONE:
+                return FoundLimit(first.kind, at, first.column, False)
+            if ahead is None and _is_home(curve, at, features):
+                ahead = _periods_within(ranges, at.q, lowest, highest)
+                if ahead is None:
+                    return FoundLimit(LimitKind.NONE, at, None, True)
+                there = there._replace(q=there.q + ahead * at.q)
+                number += number * ahead
+            elif number == MAX_TURNS:
+                return FoundLimit(LimitKind.NONE, at, None, False)
             number += 1
+        lowest, highest = np.minimum(lowest, there.q), np.maximum(highest, there.q)
         if not turns and abs(there.q[curve.drive]) > FARTHEST:
-            break
+            return FoundLimit(LimitKind.NONE, there, None, False)
+        if abs(there.tangent[curve.drive]) < CREEPS and np.abs(there.q).max() > FARTHEST:
+            return FoundLimit(LimitKind.FAR, there, None, False)
         here, length = there, curve.next_length(here, there, length)
-    return FoundLimit(LimitKind.NONE, here, None, False)
+    return FoundLimit(LimitKind.FAR, here, None, False)
 
 
 class _Event(NamedTuple):
@@ -146,6 +167,20 @@ def _crossed(curve: MotionCurve, here: CurvePose, there: CurvePose, length: floa
         return None
     s, extremum = curve.locate(here, length, event.rate)
     return s if event.value(extremum) < 0 else None
+
+
+def _periods_within(ranges: Sequence[CoordinateRange], advance: Row, lowest: Row, highest: Row) -> int | None:
+    """Count the periods after the first one that surely stay within all ranges; None where all periods do.
+
+    `advance` is by how much the coordinates have turned on in the first period, in which they were between `lowest`
+    and `highest` at the ends of steps.
+    """
+    most = np.inf
+    for (column, low, high), turned in zip(ranges, (advance[each.column] for each in ranges), strict=True):
+        if abs(turned) > SAME_POSE:
+            left = high - highest[column] if turned > 0 else lowest[column] - low
+            most = min(most, (left - LONGEST_STEP) / abs(turned))
+    return None if np.isinf(most) else max(0, int(most))
 
 
 def _is_home(curve: MotionCurve, at: CurvePose, features: PoseFeatures) -> bool:

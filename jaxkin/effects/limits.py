@@ -229,7 +229,7 @@ def _limits_in_loops(
 ) -> Limits:
     """Make the limits of a drive in loops, in words and in coordinates of all joints."""
     ends = [_limit(mechanism, name, curve, end, side) for end, side in ((lower, -np.inf), (upper, np.inf))]
-    return _limits(mechanism, name, place, ends[0], ends[1], upper.repeats or lower.repeats)
+    return _limits(mechanism, name, place, ends[0], ends[1], upper.repeats and lower.repeats)
 
 
 def _limit(mechanism: Mechanism, name: str, curve: MotionCurve, end: FoundLimit, side: float) -> Limit:
@@ -245,6 +245,11 @@ def _limit(mechanism: Mechanism, name: str, curve: MotionCurve, end: FoundLimit,
         shown[joints[joint].name][k] = value
     if end.kind is LimitKind.LOST:
         return Limit(at, end.kind, (), "the motion was lost at a singular pose", shown)
+    if end.kind is LimitKind.FAR:
+        farthest = int(np.abs(end.here.q).argmax())
+        joint, k = loops.columns[farthest]
+        reason = f"{joints[joint].full_names[k]} goes on beyond {abs(q[farthest]):.4g}, and {name} hardly any farther"
+        return Limit(at, end.kind, (joints[joint].name,), reason, shown)
     if end.kind is LimitKind.RANGE and end.column is not None:
         joint, k = loops.columns[end.column]
         owner = joints[joint]

@@ -9,6 +9,7 @@ from scipy.optimize import minimize_scalar
 
 import jaxkin as jk
 from jaxkin import LimitKind
+from jaxkin.geometry.pose import rotation
 from reference import planar, spatial
 from reference.catalogue import hexapod, parallelogram, stephenson, watt
 from reference.mechanisms import planar_fourbar, rssr_linkage, slider_crank
@@ -139,6 +140,64 @@ def test_ranges_of_joints():
     limited = jk.Mechanism.build(fixed=["ground"], joints=joints)
     np.testing.assert_allclose(jk.limits(limited, "A").range, found.range, rtol=0, atol=1e-12)
     assert jk.limits(limited, "A", ranges={"D": (-np.inf, np.inf)}).full_turn
+
+
+@pytest.mark.parametrize("own", [(-1.0, 20.0), (-20.0, 1.0), (-1.0, 7.0), (-7.0, 7.0), (-2 * np.pi, 2 * np.pi)])
+def test_a_range_of_several_turns_ends_a_drive_that_turns_fully(own):
+    found = jk.limits(planar_fourbar(1.0), "A", ranges={"A": own})
+    np.testing.assert_allclose(found.range, own, rtol=0, atol=1e-12)
+    assert not found.full_turn
+    assert {found.lower.kind, found.upper.kind} == {LimitKind.RANGE}
+
+
+@pytest.mark.parametrize("ends", [(-100.0, 1.0), (-9.0, 100.0), (-3.0, np.inf), (-1e4, 1e4)])
+def test_the_range_of_a_joint_that_turns_on_with_the_drive_ends_it(ends):
+    """The coupler turns against the crank by a full turn each turn, the other way round."""
+    mechanism = planar_fourbar(1.0)
+    found = jk.limits(mechanism, "A", ranges={"B": ends})
+    assert not found.full_turn
+    for limit, end in ((found.lower, ends[1]), (found.upper, ends[0])):
+        if np.isinf(end):
+            assert limit.value == -np.inf
+            continue
+        assert limit.joints == ("B",)
+        assert limit.coordinates["B"] == pytest.approx(end, abs=1e-9)
+        before = np.linspace(0.0, limit.value, 200)[1:-1]
+        within = np.asarray(mechanism.sweep({"A": before}).coordinates["B"])[:, 0]
+        assert within.min() > ends[0] and within.max() < ends[1]
+
+
+@pytest.mark.parametrize(("ends", "expected"), [((-9.0, 50.0), (-100.0, 18.0)), ((-9.0, 1.0), (-2.0, 18.0))])
+def test_the_range_of_a_gear_ends_its_drive_after_some_turns(ends, expected):
+    joints = [jk.revolute(name, "ground", name, point=(at, 0, 0), axis=Z) for name, at in (("A", 0), ("B", 2))]
+    pair = jk.Mechanism.build(fixed=["ground"], joints=joints, couplings=[jk.gear("A", "B", -0.5)])
+    np.testing.assert_allclose(jk.limits(pair, "A", ranges={"B": ends}).range, expected, rtol=0, atol=1e-11)
+
+
+@pytest.mark.long
+def test_slides_that_grow_without_end_end_the_drive():
+    """The rotations of an RCCC loop are those of a spherical four-bar; where the cosine of its angle between the axes
+    before and after the middle one is that of a folded triangle, the translations are infinite."""
+    random = np.random.default_rng(3)
+    axes = [each / np.linalg.norm(each) for each in (random.normal(size=3) for _ in range(4))]
+    points = [random.normal(size=3) for _ in range(4)]
+    parts = ("ground", "one", "two", "three", "ground")
+    joints = [jk.revolute("A", *parts[:2], point=points[0], axis=axes[0])]
+    joints += [
+        jk.cylindrical(name, *parts[k : k + 2], point=points[k], axis=axes[k]) for k, name in enumerate("BCD", start=1)
+    ]
+    found = jk.limits(jk.Mechanism.build(fixed=["ground"], joints=joints), "A")
+    assert {found.lower.kind, found.upper.kind} == {LimitKind.FAR}
+
+    def fold(angle):
+        along = rotation(axes[0], angle) @ axes[1]
+        cosines = np.array([axes[1] @ axes[2], axes[2] @ axes[3]])
+        gram = np.array([[1.0, along @ axes[3]], [along @ axes[3], 1.0]])
+        return 1.0 - cosines @ np.linalg.solve(gram, cosines)
+
+    for limit in (found.lower, found.upper):
+        assert fold(limit.value) * fold(limit.value * (1 + 1e-3)) < 0  # the slides are a hundred sizes there
+        assert np.abs(limit.coordinates["C"]).max() > 100
 
 
 @pytest.mark.long
