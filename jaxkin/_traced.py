@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import cache
 
 import jax
@@ -18,6 +20,19 @@ def inside_trace() -> bool:
     """Tell whether JAX traces the function that calls, though all it is given may be numbers: what is computed there
     from an array is traced."""
     return isinstance(_unchanged(_known_array()), Tracer)
+
+
+@contextmanager
+def written_with_jax(what: str) -> Iterator[None]:
+    """Call a function of the user, which messages call `what`; ValueError where it asks for numbers that JAX traces, as
+    numpy does."""
+    try:
+        yield
+    except (jax.errors.TracerArrayConversionError, jax.errors.ConcretizationTypeError) as error:
+        raise ValueError(
+            f"{what} is differentiated by JAX: write it with jax.numpy in place of numpy, math, float(...) and "
+            "conditions on values"
+        ) from error
 
 
 _unchanged = jax.jit(lambda array: array)

@@ -14,6 +14,8 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 
+from jaxkin._traced import written_with_jax
+
 
 @jax.tree_util.register_static
 @dataclass(frozen=True)
@@ -33,7 +35,8 @@ class OwnFunction:
 def own_function(function: Callable[..., Any], name: str, shapes: tuple[Any, ...], forward: bool) -> OwnFunction:
     """Trace a function of pytrees of floats and whole numbers, of which `shapes` has the shapes.
 
-    Its derivatives are compared as they are asked for: `forward`, or backward of a function of one output.
+    Its derivatives are compared as they are asked for: `forward`, or backward of a function of one output. Raises
+    ValueError for a function that asks for numbers which JAX traces.
     """
     leaves, tree = jax.tree.flatten(shapes)
     smooth = [jnp.issubdtype(leaf.dtype, jnp.inexact) for leaf in leaves]
@@ -53,6 +56,7 @@ def own_function(function: Callable[..., Any], name: str, shapes: tuple[Any, ...
     numbers, rest = (
         [leaf for leaf, is_smooth in zip(leaves, smooth, strict=True) if is_smooth is side] for side in (True, False)
     )
-    text = jax.jit(with_derivative).lower(numbers, rest).as_text()
+    with written_with_jax(name):
+        text = jax.jit(with_derivative).lower(numbers, rest).as_text()
     # the text does not tell which function of Python is called
     return OwnFunction(function, name, object() if "callback" in text else text)

@@ -16,6 +16,7 @@ import jax.numpy as jnp
 from jax import dtypes
 from jaxtyping import Array, Float
 
+from jaxkin._traced import written_with_jax
 from jaxkin.design.augmented_lagrangian import Penalty
 from jaxkin.design.constraints import Constraint, DesignConstraint, constraint_name
 from jaxkin.design.objective import Objective
@@ -245,7 +246,8 @@ def _with_contacts(mechanism: Mechanism, whole: Mechanism) -> Mechanism:
 def _check_shape(loss: Callable[..., Any], squares: bool, motion: Motion, extras: Mapping[str, Any]) -> None:
     """Refuse a loss that is no single number, where it has to be one."""
     returned: list[Any] = []
-    jax.eval_shape(lambda *given: returned.append(loss(*given)), motion, extras)
+    with written_with_jax("the loss"):
+        jax.eval_shape(lambda *given: returned.append(loss(*given)), motion, extras)
     (found,) = returned
     shape = getattr(found, "shape", () if isinstance(found, int | float) else None)
     if shape is None:

@@ -17,6 +17,7 @@ import numpy as np
 from jax import dtypes
 from jaxtyping import Array, Bool, Float
 
+from jaxkin._traced import written_with_jax
 from jaxkin.effects.pin_play import with_pins_moved
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
@@ -73,11 +74,14 @@ class Measured:
     def _measured(self, of: Pose | Motion | Mechanism) -> Float[Array, ""]:
         """Call the measure; ValueError where it asks for numbers that JAX traces, as numpy does."""
         try:
-            return _one_number(self.measure(of))
-        except (jax.errors.TracerArrayConversionError, jax.errors.ConcretizationTypeError) as error:
+            with written_with_jax("the measure"):
+                return _one_number(self.measure(of))
+        except AttributeError as error:
+            if self.driven:
+                raise
             raise ValueError(
-                "the measure is differentiated by JAX: write it with jax.numpy in place of numpy, math, float(...) and "
-                "conditions on values"
+                f"the measure is given the mechanism, since there is no drive ({error}): give one for a pose or a "
+                "motion, as in drive={'A': 0.7}"
             ) from error
 
 

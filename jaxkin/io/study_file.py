@@ -277,7 +277,7 @@ def read_study_file(path: Path) -> StudyFile:
     if (size := check_file(path, "TOML file of a study")) > MAX_STUDY_BYTES:
         raise ValueError(f"{path.name} has {size} bytes: a study has {MAX_STUDY_BYTES} at most")
     try:
-        said = tomllib.loads(path.read_bytes().decode())
+        said = tomllib.loads(path.read_bytes().decode("utf-8-sig"))  # editors of Windows write a mark
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise ValueError(f"{path.name} cannot be read as TOML: {error}") from None
     except RecursionError:

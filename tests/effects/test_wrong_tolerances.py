@@ -36,6 +36,7 @@ def rocker(pose):
         ({COUPLER: 0.1}, {"measure": "D"}, "must be a function of the pose"),
         ({COUPLER: 0.1}, {"measure": lambda pose: np.max(np.asarray(pose.coordinates["D"]))}, "jax.numpy in place of"),
         ({COUPLER: 0.1}, {"measure": lambda pose: float(rocker(pose))}, "jax.numpy in place of"),
+        ({COUPLER: 0.1}, {"drive": None}, "the measure is given the mechanism, since there is no drive"),
         ({COUPLER: 0.1}, {"samples": -1}, "samples must be a whole number"),
     ],
 )

@@ -188,6 +188,12 @@ def test_mistakes_are_told_with_file_key_and_what_was_expected(tmp_path, text, s
     assert "study.toml" in str(error.value) or "missing.step" in str(error.value)
 
 
+def test_a_study_may_begin_with_the_mark_of_an_editor(tmp_path):
+    study = written(tmp_path, HEAD)
+    study.write_bytes(b"\xef\xbb\xbf" + study.read_bytes())
+    assert load_study(study).fixed == ["ground"]
+
+
 def test_all_mistakes_are_told_at_once(tmp_path):
     with pytest.raises(ValueError) as error:
         load_study(written(tmp_path, "geometry = 3\ncombine = 3\n"))

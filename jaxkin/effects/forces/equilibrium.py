@@ -144,7 +144,14 @@ def equilibrium(
     check_mechanism(mechanism, "equilibria")
     drive = by_name(drive, "driven displacements", "{'A': np.linspace(0, 2 * np.pi, 73)}")
     check_known("equilibria", "jk.equilibrium", mechanism, dict(drive), masses, applied)
-    for load in loads_and_frictions(Acting(masses, gravity, applied))[0]:
+    given, frictions = loads_and_frictions(Acting(masses, gravity, applied))
+    if frictions:
+        raise ValueError(
+            f"friction in {frictions[0].joint!r} has no direction at rest, where the mechanism stays over a range of "
+            "displacements: leave friction out, and see where the forces of jk.drive_forces with rates of 1e-6 and of "
+            "-1e-6 along a sweep have opposite signs"
+        )
+    for load in given:
         if rows := rows_per_pose(load):
             raise ValueError(
                 f"loads of an equilibrium are the same in all poses, and {type(load).__name__} has {', '.join(rows)} "

@@ -185,8 +185,13 @@ def _one(given: Any, what: str, name: str) -> Any:
 
 
 def _vectors(given: Any, what: str, one: bool = False) -> Vectors:
-    """Check three numbers, or unless `one`, rows of three; ValueError for others."""
+    """Check three numbers, or unless `one`, rows of three; ValueError for others, and for three that are not finite.
+
+    Rows may be NaN, as those of `_numbers`.
+    """
     found = numbers(given, what, "three numbers (x, y, z)")
+    if found.ndim == 1 and not traced(found) and not np.isfinite(found).all():
+        raise ValueError(f"{what} must be three finite numbers (x, y, z), got {given!r}")
     if found.shape[-1:] != (3,) or found.ndim > (1 if one else 2):
         rows = "" if one else ", or one row of them a pose"
         raise ValueError(f"{what} must be three numbers (x, y, z){rows}, got shape {found.shape}")

@@ -194,6 +194,8 @@ def test_what_makes_no_sense_is_refused(motion, masses):
         jk.force("crank", (0, 0, 0), 5.0)
     with pytest.raises(ValueError, match="the point on 'crank' must be three numbers"):
         jk.force("crank", "centre", (1, 0, 0))
+    with pytest.raises(ValueError, match="the force on 'crank' must be three finite numbers"):
+        jk.force("crank", (0, 0, 0), (0, np.nan, 0))
 
 
 @pytest.mark.long

@@ -30,6 +30,20 @@ def test_a_pendulum_hangs_or_stands():
     np.testing.assert_allclose(found.motion.inputs["A.phi"], found.values)
 
 
+def test_friction_has_no_equilibria_and_the_advice_finds_where_it_holds():
+    """A pendulum stays where |m g l cos| is at most mu r times the force in its hinge, which is its weight."""
+    mechanism, friction = pendulum(), jk.joint_friction("A", 0.2, radius=0.5)
+    own = jk.masses(mechanism, given={"arm": jk.Mass(2.0, (0.5, 0.0, 0.0))})
+    given = {"masses": own, "gravity": (0, -9.81, 0), "applied": friction}
+    with pytest.raises(ValueError, match="friction in 'A' has no direction at rest"):
+        jk.equilibrium(mechanism, {"A": np.linspace(0.0, 3.0, 25)}, **given)
+    inputs = np.linspace(0.0, 3.0, 301)
+    motion = mechanism.sweep({"A": inputs})
+    up, down = (jk.drive_forces(motion, rates={"A": rate}, **given).forces["A.phi"] for rate in (1e-6, -1e-6))
+    held = np.asarray(up) * np.asarray(down) < 0
+    np.testing.assert_array_equal(held, np.abs(0.5 * np.cos(inputs)) < 0.2 * 0.5)
+
+
 @pytest.mark.long
 def test_a_freedom_without_a_drive_is_told_or_held():
     """A double pendulum bent by a right angle: where its first hinge needs no torque, the second one would move.
