@@ -127,10 +127,12 @@ def describe_mobility(mechanism: Mechanism) -> list[str]:
 
 
 def _what_makes_it_one(mechanism: Mechanism) -> str:
-    """Say how to see, and take back, the inferences that make one body of all parts; empty without any."""
-    inferred = [each for each in mechanism.bonds if each.evidence.kind is not EvidenceKind.USER]
+    """Say how to see, and take back, the inferences that make one body of all parts, or that their file does; empty
+    where the user does."""
+    kinds = [each.evidence.kind for each in mechanism.bonds]
+    inferred = [kind for kind in kinds if kind not in (EvidenceKind.USER, EvidenceKind.EXPORT)]
     if not inferred:
-        return ""
+        return " Its file has them so: see the notes." if EvidenceKind.EXPORT in kinds else ""
     count = f"{counted(len(inferred), 'inference')} {'makes' if len(inferred) == 1 else 'make'} it so"
     return f" {count}: see the notes. ignore=[(part, part)] takes back that of two parts, infer=False all."
 

@@ -267,3 +267,15 @@ def test_nothing_is_an_empty_text(text):
 def test_other_yaml_is_refused_with_its_line(text):
     with pytest.raises(ValueError, match=r"a\.yaml, line \d: "):
         parse_yaml(text, "a.yaml")
+
+
+def test_no_inference_is_blamed_for_what_floats(tmp_path):
+    """It is held by the reader: neither `ignore` nor `infer` of the assembly has a part in that."""
+    path = tmp_path / "floating.urdf"
+    links = '<link name="a"/><link name="b"/>'
+    joint = '<joint name="p" type="floating"><parent link="a"/><child link="b"/></joint>'
+    path.write_text(f'<robot name="r">{links}{joint}</robot>')
+    said = str(jk.load(path).mechanism())
+    assert "It cannot move: all its parts are one body. Its file has them so: see the notes." in said
+    assert "it floats: 'b' is held at rest on 'a'" in said
+    assert "ignore=" not in said
