@@ -13,7 +13,7 @@ from jaxkin._grouped import SCREEN, grouped, kind_of, products, shortened
 from jaxkin._names import counted, match_parts, nearest
 from jaxkin.assembly.exported import Exported
 from jaxkin.assembly.from_export import from_export
-from jaxkin.assembly.ignored_contacts import check_ignored
+from jaxkin.assembly.ignored_contacts import check_ignored, ignored_in_full
 from jaxkin.assembly.inference.measured import Measured
 from jaxkin.assembly.inferred import inferred
 from jaxkin.assembly.left_loose import left_loose
@@ -100,7 +100,8 @@ class Assembly:
         - `rigid`: groups of parts that do not move relative to each other, `[["bolt", "plate"]]`. A group is one body;
           its first part in the order of the assembly holds each of the others by a joint without freedoms.
         - `ignore`: contacts to leave out, by their two parts, `[["slider", "stop"]]`, between which nothing is inferred
-          either, or by their faces as reports print them, `[["slider face 3", "stop face 7"]]`.
+          either, or by their faces as reports print them, `[["slider face 3", "stop face 7"]]`. Of the pairs that
+          patterns stand for some need not touch.
         - `joints`: joints by hand. They replace all contacts between their two bodies, or join what does not touch.
         - `combine`: the contacts of two bodies become the one joint that they amount to, where there is one; without
           it every contact is a joint, as in the paper. All fixed parts are one body (Section 4.1).
@@ -139,7 +140,7 @@ class Assembly:
         said = Said(
             _in_full(fixed, self.parts, "fixed"),
             _groups(rigid, self.parts),
-            ignore,
+            ignored_in_full(ignore, self.parts),
             check_joints(joints),
             combine,
             align,
@@ -150,7 +151,7 @@ class Assembly:
         contacts = self.contacts() if contacts is None else contacts
         check_said(self.names, said)
         if not (infer and combine):
-            check_ignored(contacts, ignore)
+            check_ignored(contacts, said.ignore)
         plain = not (rigid or ignore or said.joints) and combine and infer and align is None and clearance is None
         made = self._made if plain and contacts is self._found.get(_DEFAULT_TOLERANCES) else {}
         if said.fixed not in made:

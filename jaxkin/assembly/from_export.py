@@ -131,7 +131,7 @@ def _groups(exported: Exported, said: Said) -> list[Inference]:
 def _replaced(constraint: Constraint, said: Said) -> bool:
     """Tell whether the user says something else of the two parts: a joint by hand, or that they are to be ignored."""
     parts = {*constraint.parts}
-    return any(parts == {*given.parts} for given in said.joints) or any(parts == {*pair} for pair in said.ignore)
+    return any(parts == {*given.parts} for given in said.joints) or any(parts == {*pair} for pair in said.ignored)
 
 
 def _between(

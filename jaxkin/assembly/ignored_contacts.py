@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
+from itertools import product
 
 from jaxkin._arguments import several
-from jaxkin._names import closest, nearest
+from jaxkin._names import closest, counted, match_parts, nearest
 from jaxkin.contacts.contact import Contact
+from jaxkin.geometry.part import Part
+
+Entry = tuple[tuple[str, str], ...]
+"""The pairs that an entry of `ignore` stands for: one, unless a side is a pattern."""
 
 Sides = tuple[tuple[str, str], tuple[str, str]]
 """What each of the two sides of a contact may be called: its part, and the part with the face."""
@@ -22,27 +27,39 @@ def without(contacts: Sequence[Contact], ignore: Sequence[Sequence[str]]) -> tup
 
 
 def check_ignored(
-    contacts: Sequence[Contact], ignore: Sequence[Sequence[str]], beside: Collection[frozenset[str]] = ()
+    contacts: Sequence[Contact], ignore: Sequence[Entry], beside: Collection[frozenset[str]] = ()
 ) -> None:
-    """Refuse what leaves nothing out: ValueError for an entry that no contact is between, and that is none of the pairs
+    """Refuse what leaves nothing out: ValueError for an entry none of whose pairs has a contact, or is one of the pairs
     of parts `beside`, between which something else is left out."""
     sides = [_sides(contact) for contact in contacts]
-    for one, other in ignore:
-        if frozenset((one, other)) not in beside and not any(_is_between(pair, one, other) for pair in sides):
+    for entry in ignore:
+        if not any(frozenset(pair) in beside or any(_is_between(each, *pair) for each in sides) for pair in entry):
+            one, other = entry[0]
+            like = f", nor between {counted(len(entry) - 1, 'other pair')} that they stand for" if entry[1:] else ""
             raise ValueError(
-                f"there is no contact between {one!r} and {other!r} to ignore, and nothing is inferred there"
+                f"there is no contact between {one!r} and {other!r}{like} to ignore, and nothing is inferred there"
                 f"{_instead(sides, one, other)}"
             )
 
 
-def check_pairs(ignore: Sequence[Sequence[str]]) -> None:
-    """Raise ValueError for what is no list of pairs of names."""
+def ignored_in_full(ignore: Sequence[Sequence[str]], parts: Sequence[Part]) -> tuple[Entry, ...]:
+    """List the pairs of names in full that each entry stands for, whose sides may be patterns with "*", "?" or "/".
+
+    Raises ValueError for what is no list of pairs of names, and for a pattern that no part matches.
+    """
+    known = {part.name for part in parts}
+    entries: list[Entry] = []
     for pair in several(ignore, "ignore", "pairs of parts or of their faces", '[["slider", "stop"]]'):
         if not isinstance(pair, tuple | list) or len(pair) != 2 or not all(isinstance(name, str) for name in pair):
             raise ValueError(
                 'ignore must be a list of pairs of parts or of their faces, such as [["slider", "stop"]] or '
                 f'[["slider face 3", "stop face 7"]], got {ignore!r}'
             )
+        full = [
+            match_parts(name, parts, "ignore") if name not in known and {*"*?/"} & {*name} else (name,) for name in pair
+        ]
+        entries.append(tuple((one, other) for one, other in product(*full) if one != other or len(full[0]) == 1))
+    return tuple(entries)
 
 
 def _sides(contact: Contact) -> Sides:

@@ -45,7 +45,7 @@ def inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said) -> Mec
     Tubes that may be springs are taken for such where the parts at their ends move on each other then; otherwise a
     screw clamps these, and the tube is a spacer.
     """
-    words = [*said.rigid, *said.ignore, *(each.parts for each in said.joints)]
+    words = [*said.rigid, *said.ignored, *(each.parts for each in said.joints)]
     by_hand = {*said.fixed, *(part for group in words for part in group)}
     tubes = springs(assembly._measured, contacts, said.fixed, by_hand)
     made = _inferred(assembly, contacts, said, tubes)
@@ -64,8 +64,8 @@ def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said, tubes
     said.
     """
     source = told_by(assembly, contacts)
-    used = Contacts(without(contacts, said.ignore), source.near_misses, source.notes)
-    asked = {frozenset(pair) for pair in said.ignore if {*pair} <= {*assembly.names}}
+    used = Contacts(without(contacts, said.ignored), source.near_misses, source.notes)
+    asked = {frozenset(pair) for pair in said.ignored if {*pair} <= {*assembly.names}}
     ignored = asked | {frozenset(contact.parts) for contact in contacts if contact not in used.contacts}
     check_ignored(contacts, said.ignore, asked)
     detected, heeded = contacts, set[Pair]()
@@ -127,7 +127,7 @@ def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said, tubes
                 told = _without(dropped, _counted(other, more))
     taken_back = [
         f"nothing is inferred between {one!r} and {other!r}, as was asked for"
-        for one, other in said.ignore
+        for one, other in said.ignored
         if frozenset((one, other)) in heeded
     ]
     return replace(told, history=(*told_caps(told), *taken_back, *told.history))
@@ -246,7 +246,7 @@ def _frees_fasteners_only(mechanism: Mechanism, dropped: Inference, fasteners: C
 
 def _loose(assembly: Assembly, contacts: Sequence[Contact], said: Said, found: Sequence[Inference]) -> bool:
     """Tell whether some part would hang on nothing."""
-    touching = [contact.parts for contact in without(contacts, said.ignore)]
+    touching = [contact.parts for contact in without(contacts, said.ignored)]
     ties = [
         *touching,
         *said.rigid,

@@ -12,7 +12,7 @@ import numpy as np
 
 from jaxkin._names import counted, free_name
 from jaxkin.assembly.at_rest import left_at_rest
-from jaxkin.assembly.ignored_contacts import check_pairs, without
+from jaxkin.assembly.ignored_contacts import Entry, without
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.near_misses import not_accounted_for
 from jaxkin.assembly.needless import with_spinning
@@ -59,16 +59,20 @@ class Said(NamedTuple):
 
     fixed: Sequence[str]
     rigid: Sequence[Sequence[str]] = ()
-    ignore: Sequence[Sequence[str]] = ()
+    ignore: Sequence[Entry] = ()
     joints: Sequence[Joint] = ()
     combine: bool = True
     align: float | int | None = None
     clearance: float | int | None = None
 
+    @property
+    def ignored(self) -> list[tuple[str, str]]:
+        """All pairs of parts, or of their faces, between which contacts are left out."""
+        return [pair for entry in self.ignore for pair in entry]
+
 
 def check_said(names: Sequence[str], said: Said) -> None:
     """Refuse words that name no parts, or that are no such groups: ValueError."""
-    check_pairs(said.ignore)
     check_names(names, [(given.name, *given.parts) for given in said.joints], said.fixed)
     bodies(names, said.fixed, said.rigid)
     clearance = said.clearance
@@ -113,7 +117,7 @@ def from_words(
                 "of its parts out of rigid or fixed"
             )
 
-    used = without(contacts, said.ignore)
+    used = without(contacts, said.ignored)
     ties = _ties(assembly, body, fixed, inferences, {given.name for given in joints})
     _refuse_loose(assembly, contacts, fixed, [*(c.parts for c in used), *(given.parts for given in (*joints, *ties))])
     moving = [contact for contact in used if body[contact.parts[0]] != body[contact.parts[1]]]

@@ -97,6 +97,17 @@ def test_ignored_contacts_leave_what_the_others_allow(fourbar):
     assert len(mechanism.structure.loops) == 0
 
 
+def test_contacts_are_ignored_by_patterns(fourbar):
+    """The coupler touches the crank and the rocker, and no pair of an entry needs to touch but one."""
+    named = fourbar.mechanism(fixed=["ground"], ignore=[["coupler", "crank"]], infer=False)
+    for pattern in (["coup*", "crank"], ["c?ank", "*er"]):
+        mechanism = fourbar.mechanism(fixed=["ground"], ignore=[pattern], infer=False)
+        assert mechanism.joints_between("coupler", "crank") == named.joints_between("coupler", "crank") == ()
+        assert mechanism.joints_between("ground", "crank")
+    with pytest.raises(ValueError, match="'crank' touches no other part"):
+        fourbar.mechanism(fixed=["ground"], ignore=[["cr*", "*"]], infer=False)
+
+
 @pytest.mark.long
 def test_a_joint_by_hand_replaces_the_contacts(fourbar, motion):
     hinge = motion.mechanism.joints["ground-crank"]
@@ -121,6 +132,9 @@ def test_a_joint_by_hand_replaces_the_contacts(fourbar, motion):
         ),
         ({"ignore": [["crank", "grund"]]}, "did you mean 'ground'?"),
         ({"ignore": [["crank", "xyz"]]}, "there; there is 'ground', 'crank', 'rocker', 'coupler'"),
+        ({"ignore": [["crank", "x*"]]}, "ignore names 'x*', which no part matches"),
+        ({"ignore": [["rock*", "cr*"]]}, "no contact between 'rocker' and 'crank' to ignore"),
+        ({"ignore": [["crank", "*ock?r"], ["g*", "*upler"]]}, "no contact between 'crank' and 'rocker' to ignore"),
         ({"joints": [jk.fixed("weld", "ground", "cranc")]}, "joint 'weld' names the unknown part 'cranc'; did you"),
         (
             {"joints": [jk.fixed("weld", "coupler", "crank")], "rigid": [["coupler", "crank"]]},

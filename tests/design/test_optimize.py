@@ -146,7 +146,10 @@ def test_refusals(name):
     [
         (lambda m: m.coordinates["D"], r"must return one number, got an array of shape \(24, 1\)"),
         (lambda m: "good", r"must return one number, got str"),
-        (lambda m: np.sum(np.asarray(m.coordinates["D"])), r"the loss is differentiated by JAX: write it with jax.numpy"),
+        (
+            lambda m: np.sum(np.asarray(m.coordinates["D"])),
+            r"the loss is differentiated by JAX: write it with jax.numpy",
+        ),
         (lambda m: float(m.coordinates["D"][0, 0]), r"the loss is differentiated by JAX: write it with jax.numpy"),
         pytest.param(
             lambda m: jnp.sum(jnp.log(-1.0 - m.coordinates["D"] ** 2)),
