@@ -190,11 +190,9 @@ def test_what_makes_no_sense_is_refused(motion, masses):
         jk.drive_forces(motion.mechanism, masses)
     with pytest.raises(ValueError, match="gravity must be three finite numbers"):
         jk.drive_forces(motion, masses, gravity=-9.81)
-    with pytest.raises(ValueError, match="the point on 'crank' must be three numbers"):
-        jk.force("crank", "centre", (1, 0, 0))
-    for vector, said in ((5.0, "three numbers"), ((0, np.nan, 0), "three finite numbers")):
-        with pytest.raises(ValueError, match=f"the force on 'crank' must be {said}"):
-            jk.force("crank", (0, 0, 0), vector)
+    for point, vector in (("centre", (1, 0, 0)), ((0, 0, 0), 5.0), ((0, 0, 0), (0, np.nan, 0))):
+        with pytest.raises(ValueError, match="on 'crank' must be three (finite )?numbers"):
+            jk.force("crank", point, vector)
 
 
 @pytest.mark.long
