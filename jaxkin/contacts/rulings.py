@@ -11,6 +11,9 @@ from jaxkin.contacts.touch import Touch, closest_points, common_axis, distance, 
 from jaxkin.geometry.pose import Vector, perpendicular, unit
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere
 
+ROUNDING = 1e-12
+"""Length that counts as zero, of what is left of a unit vector beside another one: unit vectors are so to 1e-15."""
+
 
 def plane_cone(s1: Plane, s2: Cone, at: Vector) -> Touch | None:
     """State (c): a cone lying on a plane along a ruling; None where the ruling stands on the plane."""
@@ -150,5 +153,5 @@ def _nearest(touches: list[Touch | None]) -> Touch | None:
 
 
 def _direction(vector: Vector, axis: Vector) -> Vector:
-    """Return the unit vector along `vector`, or any one perpendicular to `axis` if `vector` is zero."""
-    return unit(vector) if np.any(vector) else perpendicular(axis)
+    """Return the unit vector along `vector`, or any one perpendicular to `axis` if `vector` is zero but for rounding."""
+    return unit(vector) if np.linalg.norm(vector) > ROUNDING else perpendicular(axis)

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from jaxkin.contacts.frames import contact_frames
-from jaxkin.contacts.rulings import ruling
+from jaxkin.contacts.rulings import plane_cone, ruling
 from jaxkin.contacts.states import CONTACT_STATES, find_state
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.pose import apply, perpendicular, rotation
 from jaxkin.geometry.rigid import as_matrices
-from jaxkin.geometry.surfaces import Cone, Cylinder, Sphere
+from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere
 from jaxkin.joints.joint import joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.linkage.joint_motion import joint_motion
@@ -132,3 +132,14 @@ def test_tilts_are_measured(pair, solids):
     turn[:3, :3] = rotation(axis, 1e-3)
     turn[:3, 3] = touch.point - turn[:3, :3] @ touch.point
     assert state.touch(s1, s2.moved(turn), touch.point).tilt == pytest.approx(1e-3, rel=1e-2)
+
+
+@pytest.mark.parametrize("off", [0.0, 2e-16, -2e-16])
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_cone_that_stands_on_a_plane_does_not_lie_on_it(off, side):
+    """No side of the axis is towards a plane across it, though rounding leaves some of the axis there."""
+    cone = Cone(np.zeros(3), np.array([0.0, 1.0 + off, 0.0]), 0.45, 1)
+    along = ruling(cone, np.array([0.0, side, 0.0]))
+    assert np.linalg.norm(along) == pytest.approx(1.0, abs=1e-15)
+    assert along[1] == pytest.approx(np.cos(0.45), abs=1e-15)
+    assert plane_cone(Plane(np.zeros(3), np.array([0.0, side, 0.0])), cone, np.ones(3)) is None
