@@ -153,5 +153,5 @@ def _nearest(touches: list[Touch | None]) -> Touch | None:
 
 
 def _direction(vector: Vector, axis: Vector) -> Vector:
-    """Return the unit vector along `vector`, or any one perpendicular to `axis` if `vector` is zero but for rounding."""
+    """Return the unit vector along `vector`, or any one perpendicular to `axis` where `vector` is rounding."""
     return unit(vector) if np.linalg.norm(vector) > ROUNDING else perpendicular(axis)

@@ -191,7 +191,7 @@ def test_what_makes_no_sense_is_refused(motion, masses):
     with pytest.raises(ValueError, match="gravity must be three finite numbers"):
         jk.drive_forces(motion, masses, gravity=-9.81)
     for point, vector in (("centre", (1, 0, 0)), ((0, 0, 0), 5.0), ((0, 0, 0), (0, np.nan, 0))):
-        with pytest.raises(ValueError, match="on 'crank' must be three (finite )?numbers"):
+        with pytest.raises(ValueError, match=r"on 'crank' must be three (finite )?numbers"):
             jk.force("crank", point, vector)
 
 
