@@ -32,7 +32,7 @@ def test_every_state_is_found_between_solids(parts):
     contacts = find_contacts(parts)
     check(contacts, parts)
     assert len(contacts) == 25 and {contact.state for contact in contacts} == set("abcdefghijklmnop")
-    assert max(contact.misfit for contact in contacts) < 1e-7 * size(parts)  # single precision of the placements
+    assert max(contact.misfit for contact in contacts) < 1e-11 * size(parts)  # the file has twelve decimals
 
 
 @pytest.mark.long
