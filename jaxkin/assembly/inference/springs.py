@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from jaxkin.assembly.inference.axes import shared_length
 from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.measured import Measured
@@ -24,6 +25,14 @@ MAX_WIRE = 0.45
 spacers 0.40 to 0.56."""
 SLENDER = 1.0
 """Length over the outer diameter, at least: washers and rings are shorter."""
+WIDE = 0.5
+"""Radial clearance about the rod, over the radius of the rod, from which on a tube may be as short as `STOUT`: what a
+screw clamps is not that wide about it, and the springs of valves have 0.6 to 1.3 about their guides and stems."""
+STOUT = 0.6
+"""The same as `SLENDER` of tubes that are `WIDE`: springs of valves have 0.7 to 1.2 when they are compressed."""
+PILOT = 0.4
+"""Length over that of the tube, up to which a pin in its end is a pilot, which centres a spring on its seat: the rod
+goes through more of it."""
 
 
 class DrawnSpring(NamedTuple):
@@ -46,7 +55,7 @@ def springs(
     measured: Measured, contacts: Sequence[Contact], fixed: Collection[str], by_hand: Collection[str]
 ) -> list[DrawnSpring]:
     """Find the tubes with thin walls that are loose about a rod and lie with both ends on different parts, and on
-    nothing else; those of which a user says something `by_hand` are left to that.
+    nothing else but pilots of these; those of which a user says something `by_hand` are left to that.
 
     Form alone does not tell a spring from a spacer that is loose on its screw: whether the parts at its ends move on
     each other without it does.
@@ -62,12 +71,15 @@ def springs(
         tube = _tube(part, measured.bores[part.name])
         if tube is None or part.name in by_hand or id(tube[1]) in outside:
             continue
-        rods = [pair for pair in pins if pair.other is tube[0]]
         ends = _ends(part.name, tube[0], touching.get(part.name, []))
-        if not rods or ends is None or any(pair.clearance < LOOSE * pair.one.radius for pair in rods):
+        rod = None if ends is None else _rod(measured, tube[0], ends)
+        if ends is None or rod is None:
+            continue
+        clearance = tube[0].radius - rod.radius
+        short = SLENDER if clearance < WIDE * rod.radius else STOUT
+        if clearance < LOOSE * rod.radius or tube[1].half < short * tube[1].radius:
             continue
         seat, pushed = sorted(ends, key=lambda end: end not in fixed)
-        clearance = min(pair.clearance for pair in rods)
         text = f"{part.name!r} is taken for a spring, a tube with a clearance of {clearance:.2g} about its rod, which "
         text += f"pushes {pushed!r} from {seat!r}; say rigid=[[{part.name!r}, {pushed!r}]] if it is a spacer"
         evidence = Evidence(EvidenceKind.ENCLOSED, (("radius", tube[1].radius), ("clearance", clearance)), text)
@@ -83,21 +95,39 @@ def _tube(part: Part, own: Sequence[Bore]) -> tuple[Bore, Bore] | None:
     if len(holes) != 1 or len(pins) != 1 or len(planes) != 2 or len(planes) + len(round_faces) != len(part.faces):
         return None
     hole, pin = holes[0], pins[0]
-    thin = pin.radius - hole.radius <= MAX_WIRE * pin.radius and pin.half >= SLENDER * pin.radius
+    thin = pin.radius - hole.radius <= MAX_WIRE * pin.radius
     return (hole, pin) if thin and hole.on_axis_of(pin) else None
 
 
+def _rod(measured: Measured, hole: Bore, ends: Collection[str]) -> Bore | None:
+    """Find the thickest pin that a tube is about, whatever its room; pilots of the parts at its ends are none, however
+    they fit."""
+    found = []
+    for part, own in measured.bores.items():
+        for bore in own if part != hole.part else ():
+            shared = 0.0 if bore.hole or not bore.on_axis_of(hole) else shared_length(bore, hole)
+            if shared > (PILOT * 2 * hole.half if part in ends else 0.0):
+                found.append(bore)
+    return max(found, key=lambda bore: bore.radius, default=None)
+
+
 def _ends(name: str, axis: Bore, touching: Sequence[Contact]) -> tuple[str, str] | None:
-    """Find the two parts that a tube lies on with its ends; None where it touches others, or one part twice."""
+    """Find the two parts that a tube lies on with its ends; None where it touches others but for their pilots in it,
+    or one part twice."""
     ends: dict[bool, set[str]] = {True: set(), False: set()}
+    piloted: set[str] = set()
     for contact in touching:
         plane = contact.surfaces[contact.parts.index(name)]
+        if contact.contact_state.is_pin:
+            piloted |= {*contact.parts} - {name}
+            continue
         if not contact.contact_state.is_flat or not isinstance(plane, Plane):
             return None
         along = float(plane.normal @ axis.axis)
         if abs(along) < np.cos(ACROSS):
             return None
         ends[along > 0] |= {*contact.parts} - {name}
-    if len(ends[True]) != 1 or len(ends[False]) != 1 or ends[True] == ends[False]:
+    apart = len(ends[True]) == len(ends[False]) == 1 and ends[True] != ends[False]
+    if not apart or piloted - ends[True] - ends[False]:
         return None
     return next(iter(ends[True])), next(iter(ends[False]))

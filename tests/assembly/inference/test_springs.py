@@ -5,7 +5,7 @@ Each is drawn with a known truth, at a place, a size and in an order at random: 
 
 import pytest
 
-from reference.round_parts import anywhere, assembly, block, kind_of, owners, part, pin, ring
+from reference.round_parts import SEEDS, anywhere, assembly, block, kind_of, owners, part, pin, ring
 
 FOOT = block((-30, -60, -20), (30, -20, 60))
 
@@ -50,3 +50,50 @@ def test_tubes_as_loose_as_springs_are_spacers_where_screws_clamp_what_is_at_the
     body = owners(mechanism)
     assert body["high plate"] == body["low plate"] != body["lever"]
     assert not any("taken for a spring" in note for note in mechanism.notes)
+
+
+def valve(inner, length, pilot):
+    """A stem in the guide of a head, with a retainer on it, and a thin tube far wider than both between."""
+    outer, top = inner + 1.5, 10.0 + length
+    head = part("head", ring(3.0, 40.0, -30.0, 10.0), block((-60, -80, -30), (60, -39, 10)))
+    retainer = [*ring(3.0, pilot, top - 2, top), *ring(3.0, outer, top, top + 4)]
+    stem = part("stem", pin(3.0, -60.0, top + 12), pin(14.0, -66.0, -60.0), retainer)
+    return assembly(head, stem, part("tube", ring(inner, outer, 10.0, top)))
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(("inner", "length", "pilot"), [(9.5, 21.0, 9.0), (9.5, 21.0, 9.5), (7.0, 12.0, 6.0)])
+def test_the_spring_of_a_valve_is_far_wider_than_its_stem_and_may_be_short(inner, length, pilot, seed):
+    mechanism = anywhere(valve(inner, length, pilot), seed).mechanism(fixed=["head"])
+    body = owners(mechanism)
+    assert body["tube"] == body["head"] != body["stem"]
+    assert kind_of(mechanism, "head", "stem") == "cylindrical"
+    assert any("'tube' is taken for a spring" in note for note in mechanism.notes)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_short_thin_ring_between_a_seat_and_a_retainer_is_no_spring(seed):
+    mechanism = anywhere(valve(9.5, 5.0, 9.0), seed).mechanism(fixed=["head"])
+    assert not any("taken for a spring" in note for note in mechanism.notes)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_tube_of_a_cylinder_between_its_caps_is_no_spring(seed):
+    """Caps on a tube of thin walls, far wider than the rod that comes out of one of them, on two tie rods; the piston
+    on the rod fills the tube."""
+    at = [(-30.0, -30.0), (30.0, 30.0)]
+    caps = [
+        part(name, ring(inner, 24.0, low, low + 10), *(ring(3.0, 8.0, low, low + 10, each) for each in at))
+        for name, inner, low in (("cap", 4.0, 80.0), ("bottom", 3.0, -10.0))
+    ]
+    ties = [part(f"tie {k}", pin(3.0, -16.0, 96.0, each)) for k, each in enumerate(at)]
+    nuts = [
+        part(f"nut {k}{low:.0f}", ring(3.0, 5.0, low, low + 5, each))
+        for k, each in enumerate(at)
+        for low in (-15.0, 90.0)
+    ]
+    rod = part("rod", pin(4.0, 45.0, 130.0), pin(20.0, 30.0, 45.0))
+    drawn = assembly(*caps, *ties, *nuts, rod, part("tube", ring(20.0, 22.0, 0.0, 80.0)))
+    mechanism = anywhere(drawn, seed).mechanism(fixed=["bottom"])
+    assert not any("taken for a spring" in note for note in mechanism.notes)
+    assert owners(mechanism)["cap"] == owners(mechanism)["bottom"]
