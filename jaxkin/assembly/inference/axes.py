@@ -196,7 +196,8 @@ def _sleeved(pair: CommonAxis, pins: Sequence[CommonAxis]) -> bool:
     """Tell whether a third part is between: a thicker pin that fills the hole, or a tighter hole that holds the pin.
 
     A pin that is thicker than the hole is not in it where another hole holds it without interference, or another pin
-    is in the hole without one, in the midst of the thicker one: that is a ring around it, such as a shim.
+    is in the hole without one, in the midst of the thicker one: that is a ring around it, such as a shim. A part
+    that is itself in that other hole, as a nut is in its carriage, is between this and the pin.
     """
     apart = MIN_ENGAGED * pair.other.radius
     for each in pins:
@@ -209,6 +210,7 @@ def _sleeved(pair: CommonAxis, pins: Sequence[CommonAxis]) -> bool:
             return True
         tighter = each.one is pair.one and _OTHER_RADIUS * each.other.radius < pair.other.radius
         fits = each.one is pair.one and pair.tight and not each.tight
+        fits = fits and not any(pin.other is each.other and pin.one.part == pair.other.part for pin in pins)
         beside = each.other.part != pair.other.part and (tighter or fits)
         if beside and (fits or not each.tight) and shared_length(each.other, pair.other) > apart:
             return True

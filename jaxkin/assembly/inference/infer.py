@@ -33,6 +33,7 @@ from jaxkin.assembly.inference.hinges import hinges
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.keyed import flatted_hubs, keyed_hubs, squared_hubs
 from jaxkin.assembly.inference.known import Known, Pair
+from jaxkin.assembly.inference.lead_nuts import lead_nuts, on_lead_screws
 from jaxkin.assembly.inference.lock_nuts import locked_threads
 from jaxkin.assembly.inference.lying_on_one import lying_on_one
 from jaxkin.assembly.inference.measured import Measured
@@ -154,6 +155,7 @@ def _take_hubs_and_find_fasteners(known: Known) -> set[str]:
     fastening -= rings | known.sleeves | known.closed
     fastening -= sliding_rods(known, set_in) | hollow_axles(known) | driven | barrels(set_in)
     fastening -= rollers(known, fastening) | blocks_between_walls(known, fastening)
+    fastening -= {each.screw.part for each in lead_nuts(known)}
     known.take([*squared_hubs(known, fastening), *pressed_on_shoulders(known, fastening)])
     known.take(locked_threads(known, fastening))
     body = known.body
@@ -207,6 +209,7 @@ def _take_joints_between_bodies(known: Known, fastening: Collection[str]) -> _St
     wheels."""
     known.take(bearing_joints(known, known.measured.bearings))
     known.take(ball_joints(known))
+    known.take(on_lead_screws(known, lead_nuts(known)))
     known.take(shoes(known))
     known.take([*pinned_slides(known), *dowelled(known)])
     turning = closed_bearing_joints(known, known.measured.closed_bearings)

@@ -184,13 +184,18 @@ def _carries(known: Known, name: str, housing: CommonAxis) -> bool:
 
 def _is_flange(known: Known, sleeve: Sleeve) -> bool:
     """Tell whether two or more parallel axes beside that of a sleeve are those of one other part, too."""
+    return max(flanged_to(known, sleeve.part, sleeve.housing.one).values(), default=0) > 1
+
+
+def flanged_to(known: Known, part: str, axis: Bore) -> dict[str, int]:
+    """Count the holes of a part beside an axis that are in line with holes of each other part, or with its pins."""
     beside: dict[str, int] = {}
     for pair in (*known.axes, *known.tapped):
         for own, other in ((pair.one, pair.other), (pair.other, pair.one)):
-            if own.part == sleeve.part and own.hole and not own.on_axis_of(sleeve.housing.one):
+            if own.part == part and own.hole and not own.on_axis_of(axis):
                 for host in {other.part} if other.hole else _around(known, other):
                     beside[host] = beside.get(host, 0) + 1
-    return max((count for host, count in beside.items() if host != sleeve.part), default=0) > 1
+    return {host: count for host, count in beside.items() if host != part}
 
 
 def _around(known: Known, pin: Bore) -> set[str]:

@@ -1,0 +1,61 @@
+"""Lead screws, drawn plain, in the flanged nuts of carriages: they turn, and the carriage goes along them.
+
+Each is drawn with a known truth, at a place, a size and in an order at random: these change nothing.
+"""
+
+import pytest
+
+import jaxkin as jk
+from reference.round_parts import SEEDS, anywhere, assembly, block, kind_of, owners, part, pin, ring
+
+
+def axis_with_a_flanged_nut(bore, screws):
+    """A screw with a collar in a bush of the frame, through a nut whose flange is on a carriage that a rod guides."""
+    at = [(9.0, 0.0), (-9.0, 0.0), (0.0, 9.0), (0.0, -9.0)]
+    feet = block((-30, -30, -40), (80, -14, -30)), block((-30, -30, -30), (-14, -14, 10))
+    frame = part("frame", ring(4.05, 14.0, 0, 10), *feet, pin(4.0, -30, 220, (50.0, 0.0)))
+    screw = part("screw", pin(4.0, 1, 200), pin(7.0, 10, 13))
+    holes = [ring(1.7, 2.5, 100, 112, each) for each in at]
+    carriage = part("carriage", ring(5.3, 6.5, 100, 112), *holes, ring(4.05, 9.0, 100, 112, (50.0, 0.0)))
+    flange = [ring(1.75, 2.5, 112, 116, each) for each in at]
+    nut = part("nut", ring(bore, 5.1, 97, 112), ring(bore, 11.5, 112, 116), *flange)
+    held = [part(f"bolt {k}", pin(1.6, 104, 116, each), pin(3.0, 116, 119, each)) for k, each in enumerate(at[:screws])]
+    return frame, screw, carriage, nut, part("wheel", ring(4.0, 15.0, 170, 178)), *held
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(("bore", "screws"), [(3.25, 0), (3.25, 2), (3.5, 4), (4.05, 0), (4.0, 2)])
+def test_a_lead_screw_turns_in_the_flanged_nut_of_a_carriage_that_a_rod_guides(bore, screws, seed):
+    """Its thread is drawn plain, and the hole of the nut at its minor or at its major diameter."""
+    mechanism = anywhere(assembly(*axis_with_a_flanged_nut(bore, screws)), seed).mechanism(fixed=["frame"])
+    body = owners(mechanism)
+    assert body["nut"] == body["carriage"] and len({body[each] for each in ("frame", "screw", "nut")}) == 3
+    assert kind_of(mechanism, "frame", "screw") in ("revolute", "cylindrical")
+    assert kind_of(mechanism, "screw", "nut") == "cylindrical"
+    assert any("pitch=...)" in note for note in mechanism.notes) == (bore < 4.0)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_joint_that_the_note_on_a_lead_screw_gives_couples_screw_and_carriage(seed):
+    drawn = anywhere(assembly(*axis_with_a_flanged_nut(3.25, 2)), seed, scaled_at_random=False)
+    (note,) = (note for note in drawn.mechanism(fixed=["frame"]).notes if "jk.screw(" in note)
+    said = note[note.index("joints=[") + len("joints=[") : note.index("pitch=...")]
+    screw = eval(f"{said}pitch=8.0)", {"jk": jk})
+    mechanism = drawn.mechanism(fixed=["frame"], joints=[screw])
+    assert kind_of(mechanism, "screw", "nut") == "screw"
+    assert mechanism.mobility().useful == 1
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("change", ["no flange", "no guide", "short"])
+def test_a_screw_in_a_hole_for_its_thread_that_is_no_lead_screw_is_held_there(change, seed):
+    """A nut without a flange, a plate that nothing guides, a screw that ends behind its nut."""
+    frame, screw, carriage, nut, *_ = axis_with_a_flanged_nut(3.25, 0)
+    if change == "no flange":
+        nut = part("nut", ring(3.25, 5.1, 97, 112), ring(3.25, 11.5, 112, 116))
+    if change == "no guide":
+        frame = part("frame", ring(4.05, 14.0, 0, 10), block((-30, -30, -40), (80, -14, -30)))
+    if change == "short":
+        screw = part("screw", pin(4.0, 60, 117), pin(7.0, 55, 60))
+    mechanism = anywhere(assembly(frame, screw, carriage, nut), seed).mechanism(fixed=["frame"])
+    assert owners(mechanism)["nut"] == owners(mechanism)["screw"]
