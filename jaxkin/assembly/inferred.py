@@ -13,6 +13,7 @@ from jaxkin.assembly.inference.infer import infer
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Pair
 from jaxkin.assembly.inference.springs import DrawnSpring, springs
+from jaxkin.assembly.lids import under_lids
 from jaxkin.assembly.resting import leaves_all_moving, resting
 from jaxkin.assembly.seats import seats_of, useful_freedoms
 from jaxkin.assembly.to_mechanism import Said, from_words, told_by
@@ -93,6 +94,12 @@ def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said, tubes
 
     seats = [each.inference for each in tubes]
     mechanism, found, plainly = made(seats)
+    for held, rests in under_lids(mechanism) if useful_freedoms(mechanism) else ():
+        other, more, count = made([*seats, *held])
+        if useful_freedoms(other) and leaves_all_moving(mechanism, other, [*held, *rests]):
+            if rests:  # else all that lie may be held, with other seats
+                seats, mechanism, found, plainly = [*seats, *held], other, more, count
+            break
     inexact = len(found) > len(seats)
     bearings = {each.part.name for each in assembly._measured.closed_bearings}
     for _ in range(_ROUNDS):
