@@ -3,6 +3,8 @@ with nothing in them."""
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis, engaged
@@ -20,8 +22,8 @@ from jaxkin.topology.components import connected
 
 AT_FACE = 0.05
 """Distance of the end of a hole from the face that covers it, over its radius."""
-
-
+ALIKE = 0.02
+"""Difference of the radii of two holes for screws of one size, over these, at most."""
 HEXAGON = 0.03
 """Difference of the distances of the six sides of a nut from its axis, over these, that is none."""
 
@@ -93,6 +95,48 @@ def screwed_flat(known: Known) -> list[Inference]:
                 evidence = Evidence(EvidenceKind.BOLT_PATTERN, (("axes", float(len(ends))),), text)
                 result.append(Inference(parts, evidence))
     return result
+
+
+def screwed_beside(known: Known, fastening: Collection[str]) -> list[Inference]:
+    """Find parts that lie flat on another one under the head of one screw of it, with one or more empty holes like that
+    of the screw which end on the same face: the other screws are not drawn.
+
+    A lever looks alike, with an empty hole for its link. But what is on an axis across the screw with a third part, as
+    the leaf of a hinge, would not turn about the screw.
+    """
+    body, result = known.body, []
+    used = {id(bore) for pair in (*known.axes, *known.tapped) for bore in (pair.one, pair.other)}
+    for pair in known.axes:
+        screw, part = pair.parts
+        if pair.virtual or screw not in fastening or body[screw] == body[part] or pair.clearance < 0:
+            continue
+        alike = [
+            bore
+            for bore in known.bores[part]
+            if bore.hole and id(bore) not in used and abs(bore.radius - pair.other.radius) <= ALIKE * bore.radius
+        ]
+        flat_on = known.parts_flat_on(part, pair.other.axis)
+        hosts = [host for host in flat_on if host != screw and body[host] == body[screw]]
+        if not alike or not _turns_across(known, part, pair.other):
+            continue
+        for host in hosts:
+            ends = [each for each in _covered(known, alike, host, pair.other.axis) if beside(each, pair.other)]
+            if ends:
+                text = f"{part!r} lies on {host!r} under the screw {screw!r}, and {len(ends)} more of its holes of "
+                text += f"radius {pair.other.radius:.4g} end on that face, as for screws that are not drawn"
+                evidence = Evidence(EvidenceKind.BOLT_PATTERN, (("axes", 1.0 + len(ends)),), text)
+                result.append(Inference(known.in_order((part, host)), evidence))
+                break
+    return result
+
+
+def _turns_across(known: Known, part: str, hole: Bore) -> bool:
+    """Tell whether a part has an axis across a hole in common with another part."""
+    for pair in known.axes:
+        for own in (pair.one, pair.other):
+            if own.part == part and abs(float(own.axis @ hole.axis)) < ACROSS:
+                return True
+    return False
 
 
 def lone_screws(known: Known) -> list[Inference]:

@@ -1,4 +1,5 @@
-"""Boxes of panels that lie on each other without screws, and lids that rest on them and turn on a hinge.
+"""Boxes of panels that lie on each other without screws, lids that rest on them and turn on a hinge, and leaves of
+hinges some of whose screws are not drawn.
 
 Each is drawn with a known truth, at a place, a size and in an order at random: these change nothing.
 """
@@ -56,3 +57,37 @@ def test_a_lid_without_a_hinge_is_held_to_its_box(seed):
     drawn = assembly(*others, part("back", block((8, 92, 8), (92, 100, 60))), lid, post, lever)
     body = owners(anywhere(drawn, seed).mechanism(fixed=["bottom"], rigid=[["bottom", "post"]]))
     assert len({body[name] for name in (*PANELS, "lid 0")}) == 1
+
+
+def leaf_on_a_wall(screws, empty, turned, pilot):
+    """A leaf with holes for screws, of which some are drawn, and with an arm on a pin of it: across the screws, or else
+    along them as on a lever. A second arm, on a post of the wall, moves whatever is held."""
+    places = [(12.0 * k, 0.0) for k in range(screws + empty)]
+    holes = [ring(pilot, 3.0, -20, 0, at) for at in places[:screws]] if pilot else []
+    post = pin(3.0, 0, 20, (-50.0, 30.0))
+    wall = part("wall", block((-60, -40, -20), (80, 40, 0)), *holes, post)
+    arm2 = part("second arm", ring(3.05, 6.0, 4, 10, (-50.0, 30.0)), block((-44, 28, 4), (-20, 32, 10)))
+    head = [part(f"screw {k}", pin(1.5, -12, 3, at), pin(2.8, 3, 5, at)) for k, at in enumerate(places[:screws])]
+    eyes = [ring(1.7, 4.0, 0, 3, at) for at in places]
+    if turned:
+        leaf = part("leaf", *eyes, across(ring(2.05, 4.0, 0, 8, (-12.0, 20.0)), ring(2.05, 4.0, 20, 28, (-12.0, 20.0))))
+        arm = part("arm", across(ring(2.05, 4.0, 8.1, 19.9, (-12.0, 20.0))), block((8.1, 24, 10), (19.9, 60, 14)))
+        return assembly(wall, *head, leaf, arm, part("pin", across(pin(2.0, 0, 28, (-12.0, 20.0)))), arm2)
+    leaf = part("leaf", *eyes, ring(2.05, 4.0, 0, 3, (-15.0, 0.0)))
+    arm = part("arm", ring(2.05, 4.0, 3.1, 6, (-15.0, 0.0)), block((-19, 4, 3.1), (-11, 38, 6)))
+    return assembly(
+        wall, *head, leaf, arm, part("pin", pin(2.0, 0, 6, (-15.0, 0.0)), pin(3.5, 6, 8, (-15.0, 0.0))), arm2
+    )
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("pilot", [0.0, 1.2])
+@pytest.mark.parametrize(("empty", "turned", "held"), [(1, True, True), (2, True, True), (1, False, False)])
+def test_the_leaf_of_a_hinge_is_held_by_one_screw_that_is_drawn_and_others_that_are_not(
+    empty, turned, held, pilot, seed
+):
+    """Of a lever with an empty hole only what one screw clamps is known."""
+    mechanism = anywhere(leaf_on_a_wall(1, empty, turned, pilot), seed).mechanism(fixed=["wall"])
+    body = owners(mechanism)
+    assert body["leaf"] == body["wall"] or not held
+    assert any("more of its holes of radius" in note for note in mechanism.notes) == held
