@@ -17,7 +17,7 @@ from jaxkin._grouped import first_of_each, grouped, kind_of
 from jaxkin._names import counted
 from jaxkin.assembly.gears import gear_proposals
 from jaxkin.assembly.inference.inference import INFERRED
-from jaxkin.assembly.near_misses import not_accounted_for
+from jaxkin.assembly.near_misses import not_accounted_for, of_moving
 from jaxkin.contacts.reason import advises_tolerance
 from jaxkin.geometry.movements import is_length
 
@@ -59,7 +59,7 @@ def print_near_misses(contacts: Contacts, mechanism: Mechanism | None, verbose: 
 
     See `not_accounted_for`; the mechanism tells only the others, too.
     """
-    every = contacts.near_misses
+    every = contacts.near_misses if mechanism is None else of_moving(contacts.near_misses, mechanism)
     if not every:
         return
     left = every if mechanism is None else not_accounted_for(every, mechanism)
@@ -75,7 +75,7 @@ def print_near_misses(contacts: Contacts, mechanism: Mechanism | None, verbose: 
 
 def print_mechanism(mechanism: Mechanism, contacts: Contacts, verbose: bool) -> None:
     """Print joints, loops, mobility and notes, but for the notes that were told with the contacts."""
-    said = {*map(str, contacts.near_misses), *contacts.notes}
+    said = {*map(str, of_moving(contacts.near_misses, mechanism)), *contacts.notes}
     history, alignment = (
         tuple(note for note in notes if note not in said) for notes in (mechanism.history, mechanism.alignment)
     )

@@ -12,6 +12,8 @@ from jaxkin.geometry.surfaces import Surface
 
 _GIVE = " give "
 """What the tolerances with which faces would be in contact follow in a reason."""
+_PRESS = ": a press fit holds the parts together, join them with "
+"""What the line that joins parts of a press fit follows in a reason."""
 
 
 def reason(
@@ -33,8 +35,7 @@ def reason(
     pressed = touch.clearance is not None and touch.clearance < -tolerance.length
     if pressed:
         clauses.append(
-            f"thicker than its hole by {-(touch.clearance or 0.0):.3g}: a press fit holds the parts together, join "
-            f"them with rigid=[[{parts[0]!r}, {parts[1]!r}]]"
+            f"thicker than its hole by {-(touch.clearance or 0.0):.3g}{_PRESS}rigid=[[{parts[0]!r}, {parts[1]!r}]]"
         )
     wide = touch.clearance is not None and touch.clearance > loose
     if wide:
@@ -56,6 +57,16 @@ def reason(
 def advises_tolerance(text: str) -> bool:
     """Tell whether a reason ends with tolerances to give."""
     return _GIVE in text
+
+
+def of_moving_parts(text: str, joint: str) -> str:
+    """Write a reason anew for parts that a joint lets move on each other, as a seal in its cylinder or a valve on its
+    seat: a line that joins them would lock that joint."""
+    thicker, press, line = text.partition(_PRESS)
+    if not press:
+        return text
+    moves = f": joint {joint!r} lets the parts move on each other, as a seal or a seat does"
+    return f"{thicker}{moves}; a press fit would hold them together, and lock that joint: {line}"
 
 
 def _advice(options: Options, only: bool) -> str:
