@@ -17,8 +17,8 @@ from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 MINOR = 0.3
-"""Radius of a lead screw less that of its nut, over that of the screw, at most: at the minor diameter of a trapezoidal
-thread it is 0.1 to 0.25 by ISO 2904."""
+"""Radius of a lead screw less that of its nut, over that of the screw, at most: at the minor diameter it is pitch over
+diameter of a trapezoidal thread, 0.12 (Tr 100 x 12) to 0.3 (Tr 10 x 3); the nut of T8 has 0.19 to 0.25."""
 THREAD = 0.09
 """The same, from which on a hole is drawn at the minor diameter; what is wider may be a flanged bush on a guide rod."""
 PLAY = 0.05
