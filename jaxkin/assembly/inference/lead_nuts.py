@@ -16,7 +16,7 @@ from jaxkin.assembly.inference.stop_faces import WIDER
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
-MINOR = 0.3
+MINOR = 0.31
 """Radius of a lead screw less that of its nut, over that of the screw, at most: at the minor diameter it is pitch over
 diameter of a trapezoidal thread, 0.12 (Tr 100 x 12) to 0.3 (Tr 10 x 3); the nut of T8 has 0.19 to 0.25."""
 THREAD = 0.09
