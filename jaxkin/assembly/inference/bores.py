@@ -23,6 +23,9 @@ NEAR_LENGTH = 0.01
 MAX_OPEN_ARC = np.deg2rad(200.0)
 """The widest gap around a bore that still holds what is in it: a half-shell with its tessellation. Fillets are open by
 270 degrees."""
+MAX_HOLE_ARC = np.deg2rad(60.0)
+"""The widest angle that a hole or a pin which goes all the way round leaves open, at most: holes are tessellated by
+less, the end of a slot is open by half, and leaves its pin a stroke."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -59,6 +59,7 @@ from jaxkin.assembly.inference.sleeves import (
 )
 from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.assembly.inference.slides import guided_on_faces, loose_slides
+from jaxkin.assembly.inference.slot_joints import slot_joints
 from jaxkin.assembly.inference.slotted import clamped_on_slots
 from jaxkin.assembly.inference.spacers import spacers
 from jaxkin.assembly.inference.standing import butting_pins, embedded_pins, standing_rods
@@ -223,6 +224,7 @@ def _take_joints_between_bodies(known: Known, fastening: Collection[str]) -> _St
     joined += [*set_on_pins(known, joined, guided), *guided]
     known.take(floating(known, joined))
     known.take([each.inference for each in joined if not each.replaces_slide and each not in turning])
+    known.take(slot_joints(known))
     known.take(loose_slides(known))
     known.take(carriages(known))
     return _StoppedJoints(joined, guided)

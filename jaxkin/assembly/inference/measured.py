@@ -13,6 +13,7 @@ from jaxkin.assembly.inference.bearings import Bearing, Ring, bearings
 from jaxkin.assembly.inference.bores import Bore, bores
 from jaxkin.assembly.inference.closed_bearings import closed_bearings
 from jaxkin.assembly.inference.embedded import depth_inside
+from jaxkin.assembly.inference.slotted_pins import SlottedPin, slotted_pins
 from jaxkin.assembly.inference.stop_faces import StopFace, slanted_stops, stops
 from jaxkin.geometry.part import Part
 
@@ -27,6 +28,7 @@ class Measured:
         """Take the parts; `metre` is one unit of their lengths in metres."""
         self.parts, self._metre = tuple(parts), metre
         self._axes: dict[float | None, list[CommonAxis]] = {}
+        self._slotted: dict[float | None, list[SlottedPin]] = {}
         self._stops: dict[tuple[str, int], list[StopFace]] = {}
         self._slanted: dict[tuple[str, int], list[StopFace]] = {}
         self._inside: dict[tuple[str, str, float], float] = {}
@@ -64,6 +66,12 @@ class Measured:
     def far_axes(self, clearance: float | None) -> list[CommonAxis]:
         """Find the axes of parts that nothing else ties: see `far_axes`."""
         return far_axes([bore for own in self.bores.values() for bore in own], self.axes(clearance))
+
+    def slotted_pins(self, clearance: float | None) -> list[SlottedPin]:
+        """Find the pins with play in slots: see `slotted_pins`."""
+        if clearance not in self._slotted:
+            self._slotted[clearance] = slotted_pins(self.parts, self.bores, self.beside, clearance)
+        return self._slotted[clearance]
 
     @cached_property
     def boxes(self) -> Float[np.ndarray, "parts 2 3"]:

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from jaxkin.assembly.inference.axes import CommonAxis
-from jaxkin.assembly.inference.bores import Bore, opening_of
+from jaxkin.assembly.inference.bores import MAX_HOLE_ARC, Bore, opening_of
 from jaxkin.assembly.inference.hinges import MIN_TURN
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
@@ -13,10 +11,6 @@ from jaxkin.assembly.inference.slides import slide_between
 from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.assembly.inference.walls import turns
 from jaxkin.joints.evidence import Evidence, EvidenceKind
-
-MAX_HOLE_ARC = np.deg2rad(60.0)
-"""The widest angle that a hole leaves open, at most: holes are tessellated by less, the end of a slot is open by half,
-and leaves its pin a stroke."""
 
 
 def pinned_slides(known: Known) -> list[Inference]:

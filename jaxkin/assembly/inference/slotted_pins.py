@@ -1,0 +1,131 @@
+"""Pins between two walls of another part that look at each other, with play: pins in straight slots."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from itertools import combinations
+from typing import NamedTuple
+
+import numpy as np
+from jaxtyping import Float
+
+from jaxkin.assembly.inference.axes import MAX_CLEARANCE, MAX_OFFSET, MIN_ENGAGED
+from jaxkin.assembly.inference.bores import MAX_HOLE_ARC, SAME_LENGTH, Bore, merged, opening_of, shared
+from jaxkin.assembly.inference.stop_faces import ACROSS
+from jaxkin.geometry.part import Face, Part
+from jaxkin.geometry.pose import Vector
+from jaxkin.geometry.surfaces import Plane
+
+MIN_SLOT = 0.25
+"""Length over which both walls of a slot are beside each other, over its width, at least: shorter ones make up for
+tolerances of holes."""
+
+
+class SlottedPin(NamedTuple):
+    """A pin between two walls of another part."""
+
+    pin: Bore
+    part: str
+    """The part that has the walls."""
+    normal: Vector
+    """That of one of the walls."""
+    half: float
+    """Half the width between the walls."""
+    offset: float
+    """Distance of the pin from the middle between the walls."""
+    span: tuple[float, float]
+    """Where pin and walls are beside each other along the axis of the pin, from its middle."""
+
+    @property
+    def clearance(self) -> float:
+        """Half the play of the pin between the walls."""
+        return self.half - self.pin.radius
+
+    @property
+    def along(self) -> Vector:
+        """The direction of the slot, a unit vector."""
+        return np.cross(self.normal, self.pin.axis)
+
+    @property
+    def middle(self) -> Vector:
+        """The point on the axis of the pin in the middle of what is between the walls."""
+        return self.pin.point + sum(self.span) / 2 * self.pin.axis
+
+
+class _Walls(NamedTuple):
+    """The plane faces of a part."""
+
+    faces: list[Face]
+    normals: Float[np.ndarray, "faces 3"]
+    points: Float[np.ndarray, "faces 3"]
+
+
+def slotted_pins(
+    parts: Sequence[Part],
+    bores: Mapping[str, Sequence[Bore]],
+    beside: Callable[[Part], Sequence[Part]],
+    clearance: float | None = None,
+) -> list[SlottedPin]:
+    """Find the pins that go all the way round and stand between two walls of another part, under the limits of pins in
+    round holes.
+
+    `beside` lists the parts near to one. Walls that look at a pin from two directions are those of a square hole, and
+    no slot. `clearance` is the largest distance between pin and wall where the pin is in the middle, in the unit of the
+    file; by default MAX_CLEARANCE times half the width.
+    """
+    planes: dict[str, _Walls] = {}
+    result = []
+    for part in parts:
+        pins = [bore for bore in bores[part.name] if not bore.hole and opening_of(bore, part) <= MAX_HOLE_ARC]
+        for other in beside(part) if pins else ():
+            if other.name not in planes:
+                planes[other.name] = _walls_of(other)
+            for pin in pins:
+                found = _between(pin, other.name, planes[other.name], clearance)
+                if found and all(np.linalg.norm(np.cross(each.normal, found[0].normal)) < ACROSS for each in found):
+                    result.append(min(found, key=lambda each: each.half))
+    return result
+
+
+def _walls_of(part: Part) -> _Walls:
+    faces = [(face, face.surface) for face in part.faces if isinstance(face.surface, Plane)]
+    normals, points = (
+        np.array([getattr(surface, name) for _, surface in faces]).reshape(-1, 3) for name in ("normal", "point")
+    )
+    return _Walls([face for face, _ in faces], normals, points)
+
+
+def _between(pin: Bore, part: str, walls: _Walls, clearance: float | None) -> list[SlottedPin]:
+    """Find the pairs of walls that a pin stands between; those that it goes into do not hold it."""
+    apart = np.sum((pin.point - walls.points) * walls.normals, axis=1)
+    widest = pin.radius / (1 - MAX_CLEARANCE) if clearance is None else pin.radius + clearance
+    least, most = pin.radius * (1 - MAX_OFFSET), 2 * widest - pin.radius * (1 - MAX_OFFSET)
+    near = np.flatnonzero((np.abs(walls.normals @ pin.axis) <= ACROSS) & (apart >= least) & (apart <= most)).tolist()
+    found = []
+    for one, other in combinations(near, 2):
+        if np.linalg.norm(walls.normals[one] + walls.normals[other]) >= ACROSS:
+            continue
+        half, offset = (apart[one] + apart[other]) / 2, abs(apart[one] - apart[other]) / 2
+        loose = half - pin.radius
+        if not -SAME_LENGTH * half <= loose <= widest - pin.radius or offset > max(loose, 0.0) + MAX_OFFSET * half:
+            continue
+        span = _beside(pin, walls.normals[one], walls.faces[one], walls.faces[other], 2 * half * MIN_SLOT)
+        if span is not None:
+            found.append(SlottedPin(pin, part, walls.normals[one], float(half), float(offset), span))
+    return found
+
+
+def _beside(pin: Bore, normal: Vector, one: Face, other: Face, least: float) -> tuple[float, float] | None:
+    """Find where along its axis a pin is beside both of two walls; None where it is not, or where these are beside each
+    other over less than some length."""
+    across = np.column_stack([np.cross(normal, pin.axis), pin.axis])
+    places = [(face.triangles.reshape(-1, 3) - pin.point) @ across for face in (one, other)]
+    low = np.max([each.min(axis=0) for each in places], axis=0)
+    high = np.min([each.max(axis=0) for each in places], axis=0)
+    if not low[0] < 0 < high[0] or high[0] - low[0] < least:
+        return None
+    height = (float(low[1]), float(high[1]))
+    spans = merged(pin.spans)
+    if shared(spans, [height]) <= MIN_ENGAGED * pin.radius:
+        return None
+    return max(height[0], spans[0][0]), min(height[1], spans[-1][1])

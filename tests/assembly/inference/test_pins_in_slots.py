@@ -1,0 +1,120 @@
+"""Pins with play in straight slots: what exact contacts say without play is inferred with it.
+
+Each is drawn with a known truth, at a place, a size and in an order at random: these change nothing.
+"""
+
+import pytest
+
+from jaxkin.joints.evidence import EvidenceKind
+from reference.round_parts import SEEDS, across, anywhere, assembly, block, kind_of, moving, owners, part, pin, ring
+
+SLOT = "pin in slot"
+
+
+def frame_of_slot(width, length=80.0, low=0.0, high=5.0):
+    """Four blocks round a slot along x."""
+    sides = [block((-60, y, low), (60, y + 20, high)) for y in (-width / 2 - 20, width / 2)]
+    ends = [block((x, -width / 2, low), (x + 60 - length / 2, width / 2, high)) for x in (-60, length / 2)]
+    return [*sides, *ends]
+
+
+def arm_in_slot(play, low=5.0, at=((10.0, 0.0),), radius=4.0):
+    """An arm with rivets in a slot, on the plate that has the slot or above it."""
+    plate = part("plate", *frame_of_slot(2 * (radius + play)))
+    arm = part("arm", *(ring(radius, 10, low, low + 5, where) for where in at), block((0, 10, low), (20, 60, low + 5)))
+    rivets = [
+        part(f"rivet {k}", pin(radius, 0, low + 5, where), pin(7, low + 5, low + 7, where), pin(7, -2, 0, where))
+        for k, where in enumerate(at)
+    ]
+    return assembly(plate, arm, *rivets)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("play", [0.005, 0.05, 0.2, 1.0])
+def test_a_rivet_with_play_in_a_slot_slides_and_turns(play, seed):
+    drawn = anywhere(arm_in_slot(play), seed)
+    mechanism = drawn.mechanism(fixed=["plate"])
+    (joint,) = moving(mechanism)
+    assert (joint.kind, mechanism.mobility().freedoms) == (SLOT, 2)
+    assert joint.evidence is not None and joint.evidence.kind is EvidenceKind.CLEARANCE
+    sizes = dict(joint.evidence.sizes)
+    assert sizes["clearance"] / sizes["radius"] == pytest.approx(play / 4.0, rel=1e-6)
+    assert any(f"inferred from clearance: {SLOT} joint" in note for note in mechanism.notes)
+    assert not any("nearly (b)" in note for note in mechanism.notes)
+    assert SLOT not in [each.kind for each in drawn.mechanism(fixed=["plate"], infer=False).all_joints]
+    assert SLOT not in [each.kind for each in drawn.mechanism(fixed=["plate"], clearance=play * 1e-3).all_joints]
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_pin_that_is_much_thinner_than_a_gap_is_in_no_slot(seed):
+    mechanism = anywhere(arm_in_slot(3.0), seed).mechanism(fixed=["plate"])
+    assert SLOT not in [each.kind for each in mechanism.all_joints]
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_two_pins_in_one_slot_do_not_turn(seed):
+    drawn = arm_in_slot(0.1, at=((-15.0, 0.0), (10.0, 0.0)))
+    mechanism = anywhere(drawn, seed).mechanism(fixed=["plate"])
+    assert kind_of(mechanism, "plate", "arm") == "prismatic"
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_pin_in_a_square_hole_does_not_slide(seed):
+    plate = part("plate", *frame_of_slot(8.2, 8.2))
+    arm = part("arm", ring(4, 10, 5, 10), block((0, 10, 5), (20, 60, 10)))
+    rivet = part("rivet", pin(4, 0, 10), pin(7, 10, 12), pin(7, -2, 0))
+    mechanism = anywhere(assembly(plate, arm, rivet), seed).mechanism(fixed=["plate"])
+    assert SLOT not in [each.kind for each in mechanism.all_joints]
+
+
+def yoke(gap, collar=None):
+    """A crank with a pin in the slot of a yoke `gap` above it, whose rods slide in the base; perhaps with a collar."""
+    base = part(
+        "base",
+        ring(5.0, 12, -20, -10),
+        block((-80, -60, -20), (80, -12, -10)),
+        *(across(ring(4.0, 12, x, x + 10, (-10.0, 0.0))) for x in (-70, 60)),
+        *(block((x, -60, -10), (x + 10, -12, 10)) for x in (-70, 60)),
+    )
+    ends = [] if collar is None else [pin(9, collar, collar + 3, (12.0, 0.0))]
+    crank = part("crank", pin(5.0, -24, -8), pin(9, -10, -8), pin(9, -24, -20), pin(20, -8, -gap))
+    throw = part("throw", pin(4.0, -gap, collar or 60, (12.0, 0.0)), *ends)
+    sides = [block((x, -40, 0), (x + 8, 40, 20)) for x in (-0.1, 16.1)]
+    ends = [block((8 - 0.1, y, 0), (16.1, y + 10, 20)) for y in (-40, 30)]
+    rods = [across(pin(4.0, *reach, (-10.0, 0.0))) for reach in ((-100, 0), (24.1, 110))]
+    return assembly(base, crank, throw, part("yoke", *sides, *ends, *rods))
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(("collar", "kind"), [(None, "contact b"), (20.5, SLOT)])
+def test_the_pin_of_a_crank_drives_a_yoke_that_does_not_touch_it(collar, kind, seed):
+    drawn = anywhere(yoke(0.5, collar), seed)
+    mechanism = drawn.mechanism(fixed=["base"], rigid=[["crank", "throw"]])
+    assert kind_of(mechanism, "crank", "yoke") == kind
+    assert mechanism.mobility().useful == 1
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_roller_round_a_pin_is_what_is_in_the_slot(seed):
+    plate = part("plate", *frame_of_slot(12.2))
+    arm = part("arm", ring(4, 10, 8.2, 13), block((0, 10, 8.2), (20, 60, 13)))
+    rivet = part("rivet", pin(4, -1, 13), pin(7, 13, 15), pin(5.5, -3, -1))
+    roller = part("roller", ring(4.25, 6, 0, 8))
+    mechanism = anywhere(assembly(plate, arm, rivet, roller), seed).mechanism(fixed=["plate"])
+    body = owners(mechanism)
+    (joint,) = (each for each in moving(mechanism) if each.kind in (SLOT, "contact b"))
+    assert {body[name] for name in joint.parts} == {body["plate"], body["roller"]}
+    assert kind_of(mechanism, "arm", "roller") == "revolute"
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("washer", [0, 2])
+@pytest.mark.parametrize(("play", "guides"), [(0.1, True), (0.4, False)])
+def test_a_screw_with_the_clearance_of_screws_in_an_adjusting_slot_guides_nothing(play, guides, washer, seed):
+    """Its head or a washer lies on the plate that has the slot, and nothing else ties that to the base."""
+    base = part("base", ring(4, 10, -20, 0), block((-60, -60, -20), (60, -10, 0)))
+    screw = part("screw", pin(4, -15, 5 + washer), pin(7, 5 + washer, 9 + washer))
+    washers = [part("washer", ring(4.2, 9, 5, 5 + washer))] if washer else []
+    drawn = assembly(base, part("plate", *frame_of_slot(2 * (4 + play))), screw, *washers)
+    mechanism = anywhere(drawn, seed).mechanism(fixed=["base"])
+    assert any(each.kind == SLOT for each in moving(mechanism)) == guides
