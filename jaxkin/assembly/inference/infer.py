@@ -62,6 +62,7 @@ from jaxkin.assembly.inference.slides import guided_on_faces, loose_slides
 from jaxkin.assembly.inference.slot_joints import slot_joints
 from jaxkin.assembly.inference.slotted import clamped_on_slots
 from jaxkin.assembly.inference.spacers import spacers
+from jaxkin.assembly.inference.spreaders import spreaders
 from jaxkin.assembly.inference.standing import butting_pins, embedded_pins, standing_rods
 from jaxkin.assembly.inference.stopped_joint import StoppedJoint
 from jaxkin.assembly.inference.tapers import self_holding_tapers
@@ -177,6 +178,7 @@ def _take_pins_in_one_part(known: Known, fastening: Collection[str]) -> None:
     known.take([*pressed_pins(known), *bolted_ends(known)])
     known.take([*riveted_studs(known, fastening), *screwed_on_ends(known), *screwed_fittings(known)])
     known.take([*pressed_rings(known), *retaining_rings(known)])
+    known.take(spreaders(known))
 
 
 def _take_what_fasteners_hold(known: Known, fastening: Collection[str]) -> None:
