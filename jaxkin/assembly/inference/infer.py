@@ -68,7 +68,7 @@ from jaxkin.assembly.inference.stopped_joint import StoppedJoint
 from jaxkin.assembly.inference.tapers import self_holding_tapers
 from jaxkin.assembly.inference.tight_ends import bolted_ends, pressed_pins, riveted_studs, screwed_on_ends
 from jaxkin.assembly.inference.tube_clamps import clamped_halves, u_bolts
-from jaxkin.assembly.inference.undrawn import empty_nuts, lone_screws, screwed_beside, screwed_flat
+from jaxkin.assembly.inference.undrawn import empty_nuts, half_screwed, lone_screws, screwed_flat
 from jaxkin.assembly.inference.untied import sunk_in_siblings, tied_to_nothing
 from jaxkin.contacts.contact import Contacts
 from jaxkin.joints.joint import Joint
@@ -192,8 +192,7 @@ def _take_what_fasteners_hold(known: Known, fastening: Collection[str]) -> None:
     known.take(attached_fasteners(known, every))
     known.take(pressed_bars(known, fastening))
     known.take(empty_nuts(known))
-    known.take(screwed_bodies(known, every))
-    known.take(screwed_beside(known, fastening))
+    known.take([*screwed_bodies(known, every), *half_screwed(known, every)])
     known.take(clamped_by_one_screw(known, every))
     known.take(clamped_on_slots(known, every))
     known.take([*clamped_halves(known), *u_bolts(known)])

@@ -3,15 +3,16 @@ with nothing in them."""
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Sequence
 
 import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis, engaged
-from jaxkin.assembly.inference.bores import Bore
-from jaxkin.assembly.inference.fasteners import beside
+from jaxkin.assembly.inference.bores import SAME_LENGTH, Bore
+from jaxkin.assembly.inference.fasteners import Stack, beside
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
+from jaxkin.assembly.inference.one_screw import THROUGH
 from jaxkin.assembly.inference.screwed import crossings
 from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.contacts.contact import Contact
@@ -22,8 +23,6 @@ from jaxkin.topology.components import connected
 
 AT_FACE = 0.05
 """Distance of the end of a hole from the face that covers it, over its radius."""
-ALIKE = 0.02
-"""Difference of the radii of two holes for screws of one size, over these, at most."""
 HEXAGON = 0.03
 """Difference of the distances of the six sides of a nut from its axis, over these, that is none."""
 
@@ -97,45 +96,51 @@ def screwed_flat(known: Known) -> list[Inference]:
     return result
 
 
-def screwed_beside(known: Known, fastening: Collection[str]) -> list[Inference]:
-    """Find parts that lie flat on another one under the head of one screw of it, with one or more empty holes like that
-    of the screw which end on the same face: the other screws are not drawn.
+def half_screwed(known: Known, every: Sequence[Stack]) -> list[Inference]:
+    """Find bodies that lie flat on each other, one of them under the head of a screw that is tight in the other one,
+    with an empty hole as wide and as deep beside that, which ends on the other's face: only one screw is drawn.
 
-    A lever looks alike, with an empty hole for its link. But what is on an axis across the screw with a third part, as
-    the leaf of a hinge, would not turn about the screw.
+    The screw goes through with the clearance of a screw and not of a hinge. What has a pin of a third body in a hole
+    along the screw, beside it, may be a lever that turns on the screw.
     """
     body, result = known.body, []
+    screws = {part for stack in every for part in stack.fasteners}
     used = {id(bore) for pair in (*known.axes, *known.tapped) for bore in (pair.one, pair.other)}
     for pair in known.axes:
-        screw, part = pair.parts
-        if pair.virtual or screw not in fastening or body[screw] == body[part] or pair.clearance < 0:
+        (screw, part), hole = pair.parts, pair.other
+        loose = not pair.virtual and pair.clearance >= THROUGH * hole.radius
+        if not loose or screw not in screws or body[screw] == body[part] or _is_pinned(known, pair):
             continue
-        alike = [
-            bore
-            for bore in known.bores[part]
-            if bore.hole and id(bore) not in used and abs(bore.radius - pair.other.radius) <= ALIKE * bore.radius
-        ]
-        flat_on = known.parts_flat_on(part, pair.other.axis)
-        hosts = [host for host in flat_on if host != screw and body[host] == body[screw]]
-        if not alike or not _turns_across(known, part, pair.other):
+        if not known.touches_across(part, hole.axis, screw):
             continue
-        for host in hosts:
-            ends = [each for each in _covered(known, alike, host, pair.other.axis) if beside(each, pair.other)]
-            if ends:
-                text = f"{part!r} lies on {host!r} under the screw {screw!r}, and {len(ends)} more of its holes of "
-                text += f"radius {pair.other.radius:.4g} end on that face, as for screws that are not drawn"
-                evidence = Evidence(EvidenceKind.BOLT_PATTERN, (("axes", 1.0 + len(ends)),), text)
-                result.append(Inference(known.in_order((part, host)), evidence))
-                break
+        alike = [bore for bore in known.bores[part] if bore.hole and id(bore) not in used and _are_alike(bore, hole)]
+        for other in known.parts_flat_on(part, hole.axis):
+            if other == screw or body[other] != body[screw] or not known.touches_only_across(part, other, hole.axis):
+                continue
+            if ends := [bore for bore in _covered(known, alike, other, hole.axis) if beside(bore, hole)]:
+                text = f"{screw!r} is tight in the body of {other!r}, and its head lies on {part!r}, of which "
+                text += f"{len(ends)} empty hole{'s' if len(ends) > 1 else ''} beside it as wide end on the face of "
+                text += f"{other!r}, as for screws that are not drawn"
+                sizes = (("axes", 1.0 + len(ends)), ("radius", hole.radius), ("clearance", pair.clearance))
+                parts = known.in_order((part, other))
+                result.append(Inference(parts, Evidence(EvidenceKind.BOLT_PATTERN, sizes, text)))
     return result
 
 
-def _turns_across(known: Known, part: str, hole: Bore) -> bool:
-    """Tell whether a part has an axis across a hole in common with another part."""
+def _are_alike(one: Bore, other: Bore) -> bool:
+    """Tell whether two holes are as wide and as deep."""
+    slack = SAME_LENGTH * other.radius
+    return abs(one.radius - other.radius) <= slack and abs(one.half - other.half) <= slack
+
+
+def _is_pinned(known: Known, screwed: CommonAxis) -> bool:
+    """Tell whether what a screw goes through has an axis along the screw, beside it, in common with a third body."""
+    body = known.body
+    owner, host = body[screwed.other.part], body[screwed.one.part]
     for pair in known.axes:
-        for own in (pair.one, pair.other):
-            if own.part == part and abs(float(own.axis @ hole.axis)) < ACROSS:
-                return True
+        owners = {body[part] for part in pair.parts}
+        if owner in owners and len(owners) == 2 and host not in owners and beside(pair.one, screwed.one):
+            return True
     return False
 
 

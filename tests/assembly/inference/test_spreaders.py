@@ -14,7 +14,7 @@ LEVER = [
 """Something that moves on the low plate, whatever else is held."""
 
 
-def plate(low, high, *holes, floor=None):
+def plate(low, high, *holes, floor: tuple[float, float] | None = None):
     """Pieces of a plate with holes at places, each of some radius, and perhaps a floor of some heights under each."""
     collars = [ring(radius, 10, low, high, at) for radius, at in holes]
     floors = [pin(10, *floor, at) for _, at in holes] if floor else []

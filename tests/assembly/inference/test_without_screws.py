@@ -132,3 +132,36 @@ def test_drawn_solids_are_what_tests_say():
         assert (triangles.mean(axis=(0, 1)) - middle) @ surface.normal > 0
     sides = [surface for surface, _ in nut(0, 6) if isinstance(surface, Plane) and abs(surface.normal[2]) < 0.5]
     assert len(sides) == 6 and sum(isinstance(surface, Cylinder) for surface, _ in nut(0, 6)) == 1
+
+
+def foot_on_a_wall(hole=1.7, other=1.7, link=False, more=()):
+    """A foot on a wall, with a screw of radius 1.5 in one of two holes or more, and a lever on a pin in its lugs;
+    perhaps with a link on a pin beside the screw, which stands in the wall, too."""
+    wall = part("wall", block((-30, -60, -20), (100, 60, 0)), *([pin(3, 0, 6, (80.0, 40.0))] if link else []))
+    places = [(hole, HOLES[0]), (other, HOLES[1]), *((other, at) for at in more)]
+    lugs = [ring(2.05, 5, x, x + 2, (-15.0, 20.0)) for x in (16, 24)]
+    foot = [ring(radius, 6, 0, 2, at) for radius, at in places] + [block((6, -6, 0), (34, 6, 2))]
+    foot += [across(lug) for lug in lugs] + ([pin(3, 0, 6, (20.0, 40.0))] if link else [])
+    screw = part("screw", pin(1.5, -10, 2), pin(3, 2, 4))
+    pivot = part("pivot", across(pin(2, 14, 28, (-15.0, 20.0))))
+    lever = part("lever", across(ring(2.05, 5, 18.2, 23.8, (-15.0, 20.0))), block((18.2, 25, 10), (23.8, 50, 20)))
+    bars = [ring(3.05, 5, 2, 6, at) for at in ((80.0, 40.0), (20.0, 40.0))] + [block((25, 38, 2), (75, 42, 6))]
+    return assembly(wall, part("foot", *foot), screw, pivot, lever, *([part("link", *bars)] if link else []))
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("more", [(), ((20.0, -20.0),)])
+def test_a_foot_with_a_screw_in_one_hole_and_none_in_another_is_screwed_on(more, seed):
+    mechanism = anywhere(foot_on_a_wall(more=more), seed).mechanism(fixed=["wall"])
+    body = owners(mechanism)
+    assert body["wall"] == body["screw"] == body["foot"] != body["lever"]
+    assert any(f"{1 + len(more)} empty hole" in note for note in mechanism.notes)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(("hole", "other", "link"), [(1.53, 1.53, False), (1.7, 2.5, False), (1.7, 1.7, True)])
+def test_a_foot_on_one_screw_turns_where_its_holes_are_no_pattern_or_a_link_moves_it(hole, other, link, seed):
+    """With the play of a hinge, with a hole of another size, and with a pin along the screw."""
+    mechanism = anywhere(foot_on_a_wall(hole, other, link), seed).mechanism(fixed=["wall"])
+    body = owners(mechanism)
+    assert body["wall"] == body["screw"] != body["foot"]
