@@ -23,7 +23,8 @@ def plate(low, high, *holes, floor: tuple[float, float] | None = None):
 
 def between(bars, gap=100.0, floors=False, others=()):
     """Two plates 4 thick and a gap apart with bars in holes at places: (radius of the bar, inner radius of a tube or 0,
-    radius of the holes, the length by which it sticks out at the high end, the place)."""
+    radius of the holes, the length by which it sticks out at the high end, the place); with floors 1 from their
+    ends."""
     holes = [(hole, at) for _, _, hole, _, at in bars]
     ends = [(-3, 0), (8 + gap, 11 + gap)] if floors else [None, None]
     pivot = [ring(4.0, 9.0, 0, 4, (0.0, 40.0)), block((-4, 9, 0), (4, 32, 4))]
@@ -31,8 +32,8 @@ def between(bars, gap=100.0, floors=False, others=()):
     high = part("high", *plate(4 + gap, 8 + gap, *holes, floor=ends[1]))
     drawn = []
     for k, (outer, inner, _, out, at) in enumerate(bars):
-        top = 8 + gap + out
-        drawn.append(part(f"bar {k}", ring(inner, outer, 0, top, at) if inner else pin(outer, 0, top, at)))
+        bottom, top = (1, 7 + gap) if floors else (0, 8 + gap + out)
+        drawn.append(part(f"bar {k}", ring(inner, outer, bottom, top, at) if inner else pin(outer, bottom, top, at)))
     return assembly(low, high, *drawn, *LEVER, *others)
 
 
