@@ -9,6 +9,7 @@ import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis, engaged
 from jaxkin.assembly.inference.bores import Bore
+from jaxkin.assembly.inference.covers import covered_by
 from jaxkin.assembly.inference.fasteners import MAX_NUT, Stack, away_from, bolted, patterns
 from jaxkin.assembly.inference.heads import goes_through, is_exposed, is_headed
 from jaxkin.assembly.inference.inference import Inference
@@ -105,6 +106,8 @@ def attached_fasteners(known: Known, every: Sequence[Stack]) -> list[Inference]:
             holder, where = crank, "alone, as it turns in bushes of others"
         if (clamped := _clamped_on(known, stack, body)) is not None:
             holder, where = clamped, "on which its head lies, as what turns does so on its bushes"
+        if (bearing := covered_by(known, stack, body)) is not None:
+            holder, where = bearing, "on which it lies, with play on what goes through both"
         if slides and holder is None:
             continue
         parts = (*([holder] if holder else []), *stack.fasteners)
