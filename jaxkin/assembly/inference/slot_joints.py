@@ -28,8 +28,8 @@ def slot_joints(known: Known) -> list[Inference]:
     Exact contacts of the two are faces across the pin, if there are any: all others say themselves what is left. With
     such faces, or with faces that leave little play along the pin, it slides in the slot and turns; two pins beside
     each other do not turn. Without them, it slides along its axis, too, and tilts along the slot, as exact contacts
-    with the walls have it; its play is then no more than that of what nearly touches. Bodies with a common axis are
-    left to that. A screw that clamps what has the slot, for adjusting, guides nothing.
+    with the walls have it. A pin that does not touch what has the slot has no more play than what nearly touches.
+    Bodies with a common axis are left to that. A screw that clamps what has the slot, for adjusting, guides nothing.
     """
     body, every = known.body, known.measured.slotted_pins(known.clearance)
     others = {*known.jointed, *(frozenset(body[part] for part in each.parts) for each in (*known.axes, *known.tapped))}
@@ -77,7 +77,8 @@ def _is_sleeved(known: Known, slotted: SlottedPin, every: Sequence[SlottedPin]) 
 
 def _may_clamp(known: Known, slotted: SlottedPin) -> bool:
     """Tell whether a pin is a screw in an adjusting slot: what is on it lies on both sides of the part that has the
-    slot, through which it goes with the clearance of a screw, and nothing else ties the two bodies.
+    slot, through which it goes with the clearance of a screw, and nothing else ties the two bodies but what only lies
+    on them, as what a fork holds down does.
 
     A rivet has heads on both ends of its own: it holds nothing tight.
     """
@@ -95,7 +96,8 @@ def _may_clamp(known: Known, slotted: SlottedPin) -> bool:
     if len(ways) < 2:
         return False
     owners, stack = {body[pin.part], body[slotted.part]}, {body[part] for part in on}
-    ties = [*known.touching, *known.jointed, *(each.parts for each in (*known.axes, *known.tapped))]
+    lying = {tie for tie in known.touching if known.touches_only_across(min(tie), max(tie), pin.axis)}
+    ties = [*known.touching - lying, *known.jointed, *(each.parts for each in (*known.axes, *known.tapped))]
     ties = [{body[part] for part in tie} for tie in ties]
     ties = [(*tie,) for tie in ties if len(tie) == 2 and tie != owners and not tie & (stack - owners)]
     return not any(owners <= group for group in connected({*body.values()}, ties))
@@ -112,7 +114,7 @@ def _has_two_heads(known: Known, slotted: SlottedPin) -> bool:
 
 def _made(known: Known, pins: Sequence[SlottedPin], lies: bool) -> Inference | None:
     """Make the joint of two bodies by the pins that one has in slots of the other, the tightest first; they may lie on
-    each other on faces across the pins. None where the pin is too loose for a joint without anything along it."""
+    each other on faces across the pins. None where the pin is too loose for a joint without such faces."""
     first, pin = pins[0], pins[0].pin
     parts = known.in_order((pin.part, first.part))
     name = "-".join(parts)
@@ -121,6 +123,8 @@ def _made(known: Known, pins: Sequence[SlottedPin], lies: bool) -> Inference | N
     sizes = [("radius", pin.radius), ("clearance", first.clearance), ("offset", first.offset)]
     room = None if lies else _room(known, first)
     held = lies or (room is not None and room <= MAX_AXIAL_PLAY * pin.radius)
+    if not lies and first.clearance > NEAR_SLOT * pin.radius:
+        return None
     if room is not None and held:
         text += f"; faces leave a play of {room:.2g} along it"
         sizes.append(("play", room))
@@ -132,12 +136,10 @@ def _made(known: Known, pins: Sequence[SlottedPin], lies: bool) -> Inference | N
     elif held:
         text += ": it slides in a slot, and turns"
         joint = pairs.pin_in_slot(name, first.part, pin.part, point=first.middle, axis=pin.axis, direction=first.along)
-    elif first.clearance <= NEAR_SLOT * pin.radius:
+    else:
         text += ": it slides in a slot and along its axis, turns, and tilts"
         wall, centre = frame(first.middle, first.normal), frame(first.middle, pin.axis)
         joint = pairs.contact_joint(name, first.part, pin.part, state="b", frames=[wall, centre])
-    else:
-        return None
     return Inference.of(joint, Evidence(EvidenceKind.CLEARANCE, tuple(sizes), text))
 
 

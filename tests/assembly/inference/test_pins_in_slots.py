@@ -67,8 +67,10 @@ def test_a_pin_in_a_square_hole_does_not_slide(seed):
     assert SLOT not in [each.kind for each in mechanism.all_joints]
 
 
-def yoke(gap, collar=None):
-    """A crank with a pin in the slot of a yoke `gap` above it, whose rods slide in the base; perhaps with a collar."""
+def yoke(gap, collar=None, radius=4.0):
+    """A crank with a pin in the slot of a yoke `gap` above it, whose rods slide in the base; perhaps with a collar.
+
+    The slot is 8.2 wide."""
     base = part(
         "base",
         ring(5.0, 12, -20, -10),
@@ -78,7 +80,7 @@ def yoke(gap, collar=None):
     )
     ends = [] if collar is None else [pin(9, collar, collar + 3, (12.0, 0.0))]
     crank = part("crank", pin(5.0, -24, -8), pin(9, -10, -8), pin(9, -24, -20), pin(20, -8, -gap))
-    throw = part("throw", pin(4.0, -gap, collar or 60, (12.0, 0.0)), *ends)
+    throw = part("throw", pin(radius, -gap, collar or 60, (12.0, 0.0)), *ends)
     sides = [block((x, -40, 0), (x + 8, 40, 20)) for x in (-0.1, 16.1)]
     ends = [block((8 - 0.1, y, 0), (16.1, y + 10, 20)) for y in (-40, 30)]
     rods = [across(pin(4.0, *reach, (-10.0, 0.0))) for reach in ((-100, 0), (24.1, 110))]
@@ -108,13 +110,25 @@ def test_a_roller_round_a_pin_is_what_is_in_the_slot(seed):
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-@pytest.mark.parametrize("washer", [0, 2])
+@pytest.mark.parametrize(("washer", "foot"), [(0, False), (2, False), (2, True)])
 @pytest.mark.parametrize(("play", "guides"), [(0.1, True), (0.4, False)])
-def test_a_screw_with_the_clearance_of_screws_in_an_adjusting_slot_guides_nothing(play, guides, washer, seed):
-    """Its head or a washer lies on the plate that has the slot, and nothing else ties that to the base."""
-    base = part("base", ring(4, 10, -20, 0), block((-60, -60, -20), (60, -10, 0)))
+def test_a_screw_with_the_clearance_of_screws_in_an_adjusting_slot_guides_nothing(play, guides, washer, foot, seed):
+    """Its head or a washer lies on the plate that has the slot, and nothing ties that to the base but a foot that lies
+    on both, perhaps."""
+    floor = block((-60, 35, -20), (60, 50, 0))
+    base = part("base", ring(4, 10, -20, 0), block((-60, -60, -20), (60, -10, 0)), floor)
     screw = part("screw", pin(4, -15, 5 + washer), pin(7, 5 + washer, 9 + washer))
-    washers = [part("washer", ring(4.2, 9, 5, 5 + washer))] if washer else []
-    drawn = assembly(base, part("plate", *frame_of_slot(2 * (4 + play))), screw, *washers)
+    others = [part("washer", ring(4.2, 9, 5, 5 + washer))] if washer else []
+    if foot:
+        others.append(part("foot", block((-60, 35, 0), (60, 50, 8)), block((-60, 20, 5), (60, 35, 8))))
+    drawn = assembly(base, part("plate", *frame_of_slot(2 * (4 + play))), screw, *others)
     mechanism = anywhere(drawn, seed).mechanism(fixed=["base"])
     assert any(each.kind == SLOT for each in moving(mechanism)) == guides
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_pin_with_much_play_between_walls_that_it_does_not_lie_on_is_in_no_slot(seed):
+    """Only a pin with little play drives a yoke, or what else does not touch the crank."""
+    drawn = yoke(0.5, 20.5, 3.2)
+    mechanism = anywhere(drawn, seed).mechanism(fixed=["base"], rigid=[["crank", "throw"]])
+    assert not {SLOT, "contact b"} & {each.kind for each in mechanism.all_joints}
