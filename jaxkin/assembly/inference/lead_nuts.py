@@ -23,6 +23,8 @@ THREAD = 0.09
 """The same, from which on a hole is drawn at the minor diameter; what is wider may be a flanged bush on a guide rod."""
 PLAY = 0.05
 """Clearance of a nut that is drawn at the major diameter, over the radius of the screw, at most."""
+SAME = 0.005
+"""Interference of such a nut, over the radius of the screw, that is rounding."""
 LONG = 3.0
 """Length of a lead screw over that of its nut, at least: the screw of a clamp ends at its nut."""
 BEYOND = 1.0
@@ -57,10 +59,11 @@ def lead_nuts(known: Known) -> list[LeadNut]:
     for pair in known.axes:
         screw, nut = pair.one, pair.other
         thinner = -pair.clearance / screw.radius
-        if pair.virtual or screw.hole or not -PLAY <= thinner <= MINOR or not _goes_beyond(screw, nut):
+        at_minor = THREAD <= thinner <= MINOR
+        if pair.virtual or screw.hole or not (at_minor or -PLAY <= thinner <= SAME) or not _goes_beyond(screw, nut):
             continue
         length = 2 * nut.half
-        if 2 * screw.half < LONG * length or (thinner < THREAD and not _turns(known, screw, nut, bearings)):
+        if 2 * screw.half < LONG * length or (not at_minor and not _turns(known, screw, nut, bearings)):
             continue
         hosts = [host for host, count in flanged_to(known, nut.part, nut).items() if count >= BOLTS]
         hosts = [host for host in hosts if host != screw.part]

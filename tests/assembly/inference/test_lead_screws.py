@@ -59,3 +59,22 @@ def test_a_screw_in_a_hole_for_its_thread_that_is_no_lead_screw_is_held_there(ch
         screw = part("screw", pin(4.0, 60, 117), pin(7.0, 55, 60))
     mechanism = anywhere(assembly(frame, screw, carriage, nut), seed).mechanism(fixed=["frame"])
     assert owners(mechanism)["nut"] == owners(mechanism)["screw"]
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("hole", [1.4, 1.45, 1.49])
+def test_bolts_that_are_tight_in_two_plates_on_a_guide_rod_are_no_lead_screws(hole, seed):
+    """They stand out far beyond both plates, whose holes are drawn a little too narrow, and carry their nuts."""
+    at = [(-10.0, 0.0), (10.0, 0.0)]
+    frame = part("frame", block((-40, -40, -60), (40, -20, -50)), block((-4, -40, -50), (4, -6, 80)), pin(4.0, -50, 80))
+    plates = [
+        part(name, *(ring(hole, 3.0, low, low + 3, each) for each in at), ring(4.05, 7.0, low, low + 3))
+        for name, low in (("plate", 0.0), ("other plate", 3.0))
+    ]
+    bolts = [part(f"bolt {k}", pin(1.5, -12, 15, each), pin(2.75, 15, 18, each)) for k, each in enumerate(at)]
+    nuts = [part(f"nut {k}", ring(1.175, 3.0, -4, 0, each)) for k, each in enumerate(at)]
+    mechanism = anywhere(assembly(frame, *plates, *bolts, *nuts), seed).mechanism(fixed=["frame"])
+    assert (
+        len({owners(mechanism)[each] for each in ("plate", "other plate", "bolt 0", "bolt 1", "nut 0", "nut 1")}) == 1
+    )
+    assert not any("lead screw" in note for note in mechanism.notes)
