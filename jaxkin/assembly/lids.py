@@ -81,4 +81,4 @@ def _opens(mechanism: Mechanism, hinge: Joint, faces: Sequence[tuple[Vector, Con
             heights = (face.triangles.reshape(-1, 3) - pose[:3, 3]) @ along
             spans.append((float(heights.min()), float(heights.max())))
         ends += [max(low for low, _ in spans), min(high for _, high in spans)]
-    return np.linalg.norm(along) > np.cos(ACROSS) and (min(ends) >= -slack or max(ends) <= slack)
+    return bool(np.linalg.norm(along) > np.cos(ACROSS)) and (min(ends) >= -slack or max(ends) <= slack)
