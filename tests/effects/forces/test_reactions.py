@@ -157,7 +157,8 @@ def test_it_prints_draws_and_saves_and_open_poses_are_nan(tmp_path):
 
 @pytest.mark.long
 def test_loads_that_are_no_numbers_are_told(motion, masses):
-    found = jk.reactions(motion, masses, applied=[jk.force("coupler", (30.0, 60.0, 0.0), (np.nan, 0.0, 0.0))])
+    unknown = np.full((len(motion.status), 3), np.nan)
+    found = jk.reactions(motion, masses, applied=[jk.force("coupler", (30.0, 60.0, 0.0), unknown)])
     assert "unknown" in str(found)
 
 
