@@ -55,11 +55,14 @@ def ignored_in_full(ignore: Sequence[Sequence[str]], parts: Sequence[Part]) -> t
                 'ignore must be a list of pairs of parts or of their faces, such as [["slider", "stop"]] or '
                 f'[["slider face 3", "stop face 7"]], got {ignore!r}'
             )
-        full = [
-            match_parts(name, parts, "ignore") if name not in known and {*"*?/"} & {*name} else (name,) for name in pair
-        ]
+        full = [match_parts(name, parts, "ignore") if _is_pattern(name, known) else (name,) for name in pair]
         entries.append(tuple((one, other) for one, other in product(*full) if one != other or len(full[0]) == 1))
     return tuple(entries)
+
+
+def _is_pattern(name: str, known: Collection[str]) -> bool:
+    """Tell whether a side is a pattern, and neither a part nor a face of one whose name has "*", "?" or "/" in it."""
+    return bool({*"*?/"} & {*name}) and not any(name == part or name.startswith(f"{part} face ") for part in known)
 
 
 def _sides(contact: Contact) -> Sides:

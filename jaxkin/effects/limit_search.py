@@ -120,7 +120,7 @@ def find_limit(
         if abs(there.tangent[curve.drive]) < CREEPS and np.abs(there.q).max() > FARTHEST:
             return FoundLimit(LimitKind.FAR, there, None, False)
         here, length = there, curve.next_length(here, there, length)
-    return FoundLimit(LimitKind.FAR, here, None, False)
+    return FoundLimit(LimitKind.NONE, here, None, False)
 
 
 class _Event(NamedTuple):

@@ -31,8 +31,9 @@ def length_unit(text: str, name: str) -> tuple[str, float]:
 
 
 def units_of_shapes(text: str) -> set[float]:
-    """Find the metres of all length units of a file: parts may be in another one than what they are placed in."""
-    return {metres for _, metres in _length_units(text) if metres}
+    """Find the metres of all length units of a file, those of millimetres where it says none: parts may be in another
+    one than what they are placed in."""
+    return {metres for _, metres in _length_units(text) if metres} or {METRES["mm"]}
 
 
 def uncertainty(text: str) -> float:

@@ -46,6 +46,11 @@ def test_a_placement_is_found_by_its_numbers_in_single_precision():
     np.testing.assert_allclose(found, pose(), atol=1e-15)
 
 
+def test_a_file_without_a_unit_is_in_millimetres():
+    found = FilePlacements(AT_HOME + TURNED + placed()).rounded_to(single(pose()))
+    np.testing.assert_allclose(found, pose(), atol=1e-15)
+
+
 def test_translators_differ_in_which_frame_is_placed_in_which():
     found = FilePlacements(MILLIMETRES + AT_HOME + TURNED + placed("#2", "#1")).rounded_to(single(pose()))
     np.testing.assert_allclose(found, pose(), atol=1e-15)
