@@ -112,7 +112,8 @@ def limits(
     `drive` is a "joint" or "joint.coordinate". Its range ends where the mechanism locks: where the rate of the drive
     is zero while other joints still move; or where a coordinate is at the end of its range: that of `ranges`, a pair of
     displacements from the assembled pose a coordinate, in radians or lengths (-inf and inf for none), or of the
-    `limits` of its joint. Of a mechanism with several freedoms, the coordinates in `hold` stay as assembled.
+    `limits` of its joint. Where slides grow without end while it hardly moves, it ends at a slide of a hundred sizes.
+    Of a mechanism with several freedoms, the coordinates in `hold` stay as assembled.
 
     The motion is followed by its arc length, and limits are found to rounding: some 1e-13 radians, or lengths over the
     size; 1e-10 beside poses in which branches nearly cross, and 1e-6 where they cross in the limit itself, as where a

@@ -108,6 +108,15 @@ def test_contacts_are_ignored_by_patterns(fourbar):
         fourbar.mechanism(fixed=["ground"], ignore=[["cr*", "*"]], infer=False)
 
 
+def test_a_face_of_a_part_with_a_slash_in_its_name_is_no_pattern(fourbar):
+    parts = [replace(part, name="Nut 5/16") if part.name == "coupler" else part for part in fourbar.parts]
+    assembly = replace(fourbar, parts=tuple(parts))
+    contact = next(each for each in assembly.contacts() if "Nut 5/16" in each.parts and each.state == "a")
+    sides = [f"{part} {face}" for part, face in zip(contact.parts, contact.faces, strict=True)]
+    mechanism = assembly.mechanism(fixed=["ground"], ignore=[sides], infer=False)
+    assert "1 contact ignored, as was asked for" in mechanism.notes
+
+
 @pytest.mark.long
 def test_a_joint_by_hand_replaces_the_contacts(fourbar, motion):
     hinge = motion.mechanism.joints["ground-crank"]
