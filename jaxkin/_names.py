@@ -43,6 +43,11 @@ def match_parts(patterns: str | Sequence[str], parts: Sequence[InAssembly], what
     return tuple(found)
 
 
+def may_be_pattern(name: str) -> bool:
+    """Tell whether a name has a letter of patterns, or sub-assemblies before it."""
+    return bool({*"*?/"} & {*name})
+
+
 def _below(pattern: str, paths: Mapping[str, str]) -> list[str]:
     """List the names whose path ends in what the pattern stands for; without "/" in it, the name alone does."""
     form = _form(pattern)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from jaxkin._arguments import several, text
 from jaxkin._grouped import SCREEN, grouped, kind_of, products, shortened
-from jaxkin._names import counted, match_parts, nearest
+from jaxkin._names import counted, match_parts, may_be_pattern, nearest
 from jaxkin.assembly.exported import Exported
 from jaxkin.assembly.from_export import from_export
 from jaxkin.assembly.ignored_contacts import check_ignored, ignored_in_full
@@ -263,7 +263,7 @@ def _in_full(names: Sequence[str], parts: Sequence[Part], what: str) -> Sequence
     known = {part.name for part in parts}
     found: dict[str, None] = {}
     for name in several(names, what, "part names"):
-        pattern = text(name, f"an entry of {what}") not in known and {*"*?/"} & {*name}
+        pattern = text(name, f"an entry of {what}") not in known and may_be_pattern(name)
         found |= dict.fromkeys(match_parts(name, parts, what) if pattern else [name])
     return tuple(found)
 

@@ -6,7 +6,7 @@ from collections.abc import Collection, Sequence
 from itertools import product
 
 from jaxkin._arguments import several
-from jaxkin._names import closest, counted, match_parts, nearest
+from jaxkin._names import closest, counted, match_parts, may_be_pattern, nearest
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.part import Part
 
@@ -62,7 +62,7 @@ def ignored_in_full(ignore: Sequence[Sequence[str]], parts: Sequence[Part]) -> t
 
 def _is_pattern(name: str, known: Collection[str]) -> bool:
     """Tell whether a side is a pattern, and neither a part nor a face of one whose name has "*", "?" or "/" in it."""
-    return bool({*"*?/"} & {*name}) and not any(name == part or name.startswith(f"{part} face ") for part in known)
+    return may_be_pattern(name) and not any(name == part or name.startswith(f"{part} face ") for part in known)
 
 
 def _sides(contact: Contact) -> Sides:
