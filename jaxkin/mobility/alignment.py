@@ -6,6 +6,8 @@ For each other loop group two alignments are tried, the first that lets its loop
 
 1. axes that are parallel, perpendicular, coaxial or concurrent within the noise become exactly so (`regularise.align`);
 2. the frames are moved by the smallest twists with which the loops close along a motion (`nearest_mobile`).
+
+In loops that move then, four-bars that lie flat within the noise are made to lie flat exactly (`change_points`).
 """
 
 from __future__ import annotations
@@ -23,12 +25,17 @@ from jaxkin.joints.joint import Joint
 from jaxkin.joints.regularise import Noise, align
 from jaxkin.linkage.host_closure import ClosedLoops
 from jaxkin.linkage.linkage import Linkage
+from jaxkin.mobility.change_points import EXACT, FlatLoop, flat_loops, laid_flat
 from jaxkin.mobility.consistency import STILL, beside, rounding
 from jaxkin.mobility.nearest_mobile import nearest_mobile
+from jaxkin.topology.components import connected
 from jaxkin.topology.structure import LoopGroup
 
 SIX_DIGITS = 5e-6
 """Default noise of frames, radians or lengths over `extent`: the largest error of a number rounded to six digits."""
+SEVEN_DIGITS = 5e-7
+"""Noise by which links may miss a pose in line, unless more than the default is asked for, same units: links that are
+nearly equal are design sooner than axes that are nearly parallel."""
 MISALIGNMENT_LEVELS = (1e-4, 1e-3)
 """Misalignments that are tried after the noise, same units, to tell a user which joints disagree by more than rounding.
 A misalignment above 1e-3 is taken for design: it is larger than the errors of files and drawings."""
@@ -97,15 +104,18 @@ def aligned(linkage: Linkage, noise: float, unit: str = "") -> Aligned:
     leaves = jax.tree.leaves(linkage.joints)
     if traced(leaves) or any(np.asarray(leaf).dtype != np.float64 or not np.isfinite(leaf).all() for leaf in leaves):
         return Aligned(linkage, ())
-    exact, ideal, largest = list(linkage.joints), list(linkage.joints), noise
+    exact, ideal, largest, doubts = list(linkage.joints), list(linkage.joints), noise, []
     for loop_group in linkage.structure.uncoupled_groups:
         level, joints = _aligned_group(linkage, loop_group, noise)
+        if level <= noise:
+            joints, doubt = _laid_flat(linkage, loop_group, joints, noise, unit)
+            doubts += doubt
         for number, joint in zip(loop_group.joints, joints, strict=True):
             ideal[number] = joint
             if level <= noise:
                 exact[number] = joint
         largest = max(largest, level)
-    notes = []
+    notes = doubts
     if moved := _correction(linkage.joints, exact):
         notes.append(f"for the rounding of the numbers, {moved.said(unit)}")
     if not (disagreement := _correction(exact, ideal)):
@@ -157,6 +167,48 @@ def _joints_that_move(linkage: Linkage, loop_group: LoopGroup, level: float) -> 
         if joints and _closes_throughout(linkage, loop_group, joints, level):
             return joints
     return None
+
+
+def _laid_flat(
+    linkage: Linkage, loop_group: LoopGroup, joints: list[Joint], noise: float, unit: str
+) -> tuple[list[Joint], list[str]]:
+    """Move the pins of four-bar loops that can lie flat but for the noise, so that they can (`change_points`).
+
+    `joints` are those of the group, which move. Returns them, and a sentence about loops that miss it by little more.
+    """
+    ends, noted = _bodies_of(linkage, loop_group, joints), []
+    quiet = noise if noise > SIX_DIGITS else min(noise, SEVEN_DIGITS)
+    for level in (quiet, *(level for level in MISALIGNMENT_LEVELS[:1] if level > quiet)):
+        numbered, size = dict(zip(loop_group.joints, joints, strict=True)), extent(joints)
+        loops = flat_loops(numbered, ends, level * size)
+        off = [loop for loop in loops if loop.off_by() > EXACT * size]
+        if not (off and level and (moved := laid_flat(loops, numbered, level * size, size))):
+            continue
+        found = [moved.get(number, joint) for number, joint in numbered.items()]
+        if not _closes_throughout(linkage, loop_group, found, level):
+            continue
+        if level <= quiet:
+            joints = found
+            continue
+        worst = max(off, key=FlatLoop.off_by)
+        noted.append(
+            f"the links of {listed([repr(numbered[n].name) for n in worst.joints])} miss by "
+            f"{f'{worst.off_by():.1g} {unit}'.rstrip()} to lie flat in line"
+            + (f", and those of {len(off) - 1} more loops by less" if len(off) > 1 else "")
+            + ": near that pose such a loop folds over, or stops; if links are equal by design, give more digits, "
+            f"or have them made so with align={level:g}"
+        )
+    return joints, noted
+
+
+def _bodies_of(linkage: Linkage, loop_group: LoopGroup, joints: Sequence[Joint]) -> dict[int, tuple[str, str]]:
+    """Map each joint of a group to the bodies of its parts, of which fixed joints make one."""
+    structure = linkage.structure
+    ends = {n: tuple(structure.row_of[part] for part in structure.joint_parts[n]) for n in loop_group.joints}
+    welds = [ends[n] for n, joint in zip(loop_group.joints, joints, strict=True) if not joint.freedoms]
+    groups = connected({row for pair in ends.values() for row in pair}, welds)
+    body = {row: min(group) for group in groups for row in group}
+    return {n: (body[one], body[other]) for n, (one, other) in ends.items()}
 
 
 def _noise(joints: Sequence[Joint], level: float) -> Noise:

@@ -157,13 +157,12 @@ def distance(one: Motion, other: Motion, size: float) -> np.ndarray:
     [
         lambda: overconstrained.missing_axes(0.4, 1e-7),
         lambda: mechanisms.bennett_linkage(0.9, 1e-7, 1.7e-7),
-        lambda: mechanisms.planar_fourbar(1.0, ground=120.0, crank=50.0 * (1 - 1e-6), coupler=120.0, rocker=50.0),
         lambda: mechanisms.rssr_linkage(0.3),
     ],
-    ids=["axes that miss", "axes nearly parallel", "nearly a parallelogram", "nothing special"],
+    ids=["axes that miss", "axes nearly parallel", "nothing special"],
 )
 def test_loops_that_move_are_left_as_they_are(build):
-    """Small numbers that are design: RCCC, Bennett's linkage, a crank that is a little shorter."""
+    """Small numbers that are design: RCCC, Bennett's linkage."""
     mechanism = build()
     assert not mechanism.notes and not mechanism.linkage.ideal
     tried = Mechanism.build(fixed=list(mechanism.fixed), joints=mechanism.all_joints, align=MISALIGNMENT_LEVELS[-1])
