@@ -76,9 +76,8 @@ class Mechanism:
         """Make a mechanism of joints written by hand, in world coordinates of its assembled pose, and of couplings.
 
         Rounded numbers let the loops of many mechanisms close at the assembled pose only: their frames are moved by at
-        most `align`, in radians and over the size of the mechanism, so that they close throughout, and `notes` say by
-        how much. By default that covers six digits; 0 moves nothing. Loops that move are left alone, but that
-        four-bars which lie flat to seven digits, such as parallelograms, lie flat exactly: else they would fold over.
+        most `align`, in radians and over the size of the mechanism, so that they close throughout (by default six
+        digits, 0 moves nothing); and of loops that move, four-bars that lie flat to seven digits, as parallelograms do.
 
         Raises ValueError for names that repeat or are not there, parts that hang on nothing, and a wrong `align`.
         """
