@@ -192,8 +192,8 @@ def _laid_flat(
             continue
         worst = max(off, key=FlatLoop.off_by)
         noted.append(
-            f"the links of {listed([repr(numbered[n].name) for n in worst.joints])} miss by "
-            f"{f'{worst.off_by():.1g} {unit}'.rstrip()} to lie flat in line"
+            f"the links between {listed([repr(numbered[n].name) for n in worst.joints])} miss by "
+            f"{f'{worst.off_by():.1g} {unit}'.rstrip()} lying flat in one line"
             + (f", and those of {len(off) - 1} more loops by less" if len(off) > 1 else "")
             + ": near that pose such a loop folds over, or stops; if links are equal by design, give more digits, "
             f"or have them made so with align={level:g}"

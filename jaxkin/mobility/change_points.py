@@ -180,32 +180,38 @@ def circuits(ends: Mapping[int, tuple[str, str]]) -> Iterator[Circuit]:
 
 
 def _axes_in_plane(joints: Mapping[int, Joint], circuit: Circuit) -> list[Axis]:
-    """List the axes that act in the plane of a circuit, in the order of travel; none where it has no plane."""
-    axes: list[Axis] = []
-    for number, sign in circuit:
-        joint = joints[number]
-        if not joint.coincides or any(MOVEMENTS[name].has_pitch or MOVEMENTS[name].follows for name in joint.movements):
-            return []
-        axes += _axes(number, joint)[::sign]
-    turning = [axis for axis in axes if axis.turns]
-    for normal in (axis.direction for axis in turning[:2]):
-        pins = [axis for axis in turning if _parallel(axis.direction, normal)]
-        slides = [axis for axis in axes if not axis.turns and not _parallel(axis.direction, normal)]
-        # one turn about another axis would tilt the plane, so that it rests; slides along the normal rest, too
-        if len(pins) >= len(turning) - 1 and all(abs(axis.direction @ normal) <= ALIGNED for axis in slides):
-            inside = {id(axis) for axis in (*pins, *slides)}
-            return [axis for axis in axes if id(axis) in inside]
+    """List the axes that act in the plane of a circuit, in the order of travel; none where it has no plane.
+
+    Turns that would tilt the plane rest: one about another axis, and all of a ball but that about the normal; those of
+    the two balls of a rod, too, but for its spin.
+    """
+    own = [joints[number] for number, _ in circuit]
+    movements = [MOVEMENTS[name] for joint in own for name in joint.movements]
+    balls = [place for place, joint in enumerate(own) if any(MOVEMENTS[name].ball for name in joint.movements)]
+    rod = len(balls) == 2 and balls[1] - balls[0] in (1, len(circuit) - 1)
+    if any(each.has_pitch or each.follows for each in movements) or not all(joint.coincides for joint in own):
+        return []
+    hinges = [axis.direction for number, _ in circuit for axis in _axes(number, joints[number]) if axis.turns]
+    for normal in hinges[:2] if rod or len(balls) < 2 else ():
+        axes = [axis for number, sign in circuit for axis in _axes(number, joints[number], normal)[::sign]]
+        acting = [axis for axis in axes if axis.turns == _parallel(axis.direction, normal)]
+        tilts = sum(not _parallel(direction, normal) for direction in hinges)
+        slides = [axis.direction for axis in acting if not axis.turns]
+        if tilts <= (0 if balls else 1) and all(abs(slide @ normal) <= ALIGNED for slide in slides):
+            return acting
     return []
 
 
-def _axes(number: int, joint: Joint) -> list[Axis]:
-    """List the axes of a joint from part 1 to part 2."""
-    frames = zip(np.asarray(joint.frames_1, float), joint.movements, strict=True)
-    return [
-        Axis(number, element.kind == "rotate", frame[:3, 3], frame[:3, element.axis])
-        for frame, name in frames
-        for element in MOVEMENTS[name].elements
-    ]
+def _axes(number: int, joint: Joint, of_balls: Vector | None = None) -> list[Axis]:
+    """List the axes of a joint from part 1 to part 2: of a ball the one given, or none."""
+    axes: list[Axis] = []
+    for frame, name in zip(np.asarray(joint.frames_1, float), joint.movements, strict=True):
+        if not MOVEMENTS[name].ball:
+            elements = MOVEMENTS[name].elements
+            axes += [Axis(number, each.kind == "rotate", frame[:3, 3], frame[:3, each.axis]) for each in elements]
+        elif of_balls is not None:
+            axes.append(Axis(number, True, frame[:3, 3], of_balls))
+    return axes
 
 
 def _parallel(one: Vector, other: Vector) -> bool:
