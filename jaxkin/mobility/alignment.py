@@ -104,18 +104,19 @@ def aligned(linkage: Linkage, noise: float, unit: str = "") -> Aligned:
     leaves = jax.tree.leaves(linkage.joints)
     if traced(leaves) or any(np.asarray(leaf).dtype != np.float64 or not np.isfinite(leaf).all() for leaf in leaves):
         return Aligned(linkage, ())
-    exact, ideal, largest, doubts = list(linkage.joints), list(linkage.joints), noise, []
+    exact, ideal, largest, notes = list(linkage.joints), list(linkage.joints), noise, list[str]()
+    of_links, more = noise if noise > SIX_DIGITS else min(noise, SEVEN_DIGITS), MISALIGNMENT_LEVELS[0]
     for loop_group in linkage.structure.uncoupled_groups:
         level, joints = _aligned_group(linkage, loop_group, noise)
         if level <= noise:
-            joints, doubt = _laid_flat(linkage, loop_group, joints, noise, unit)
-            doubts += doubt
+            joints, _ = _laid_flat(linkage, loop_group, joints, of_links)
+            _, off = _laid_flat(linkage, loop_group, joints, more, least_sums=2) if of_links < more else ([], [])
+            notes += [_nearly_flat(linkage, off, unit)] if off else []
         for number, joint in zip(loop_group.joints, joints, strict=True):
             ideal[number] = joint
             if level <= noise:
                 exact[number] = joint
         largest = max(largest, level)
-    notes = doubts
     if moved := _correction(linkage.joints, exact):
         notes.append(f"for the rounding of the numbers, {moved.said(unit)}")
     if not (disagreement := _correction(exact, ideal)):
@@ -170,35 +171,34 @@ def _joints_that_move(linkage: Linkage, loop_group: LoopGroup, level: float) -> 
 
 
 def _laid_flat(
-    linkage: Linkage, loop_group: LoopGroup, joints: list[Joint], noise: float, unit: str
-) -> tuple[list[Joint], list[str]]:
-    """Move the pins of four-bar loops that can lie flat but for the noise, so that they can (`change_points`).
+    linkage: Linkage, loop_group: LoopGroup, joints: list[Joint], level: float, least_sums: int = 1
+) -> tuple[list[Joint], list[FlatLoop]]:
+    """Move the pins of four-bar loops by at most `level`, so that they can lie flat (`change_points`).
 
-    `joints` are those of the group, which move. Returns them, and a sentence about loops that miss it by little more.
+    `joints` are those of the group, which move. Returns them, and the loops that missed it; joints as they are and no
+    loops where that fails. Loops of fewer than `least_sums` sums are left out: only equal links make two of them zero.
     """
-    ends, noted = _bodies_of(linkage, loop_group, joints), []
-    quiet = noise if noise > SIX_DIGITS else min(noise, SEVEN_DIGITS)
-    for level in (quiet, *(level for level in MISALIGNMENT_LEVELS[:1] if level > quiet)):
-        numbered, size = dict(zip(loop_group.joints, joints, strict=True)), extent(joints)
-        loops = flat_loops(numbered, ends, level * size)
-        off = [loop for loop in loops if loop.off_by() > EXACT * size]
-        if not (off and level and (moved := laid_flat(loops, numbered, level * size, size))):
-            continue
+    numbered, size = dict(zip(loop_group.joints, joints, strict=True)), extent(joints)
+    loops = flat_loops(numbered, _bodies_of(linkage, loop_group, joints), level * size)
+    loops = [loop for loop in loops if len(loop.signs) >= least_sums]
+    off = [loop for loop in loops if loop.off_by() > EXACT * size]
+    if off and level and (moved := laid_flat(loops, numbered, level * size, size)):
         found = [moved.get(number, joint) for number, joint in numbered.items()]
-        if not _closes_throughout(linkage, loop_group, found, level):
-            continue
-        if level <= quiet:
-            joints = found
-            continue
-        worst = max(off, key=FlatLoop.off_by)
-        noted.append(
-            f"the links between {listed([repr(numbered[n].name) for n in worst.joints])} miss by "
-            f"{f'{worst.off_by():.1g} {unit}'.rstrip()} lying flat in one line"
-            + (f", and those of {len(off) - 1} more loops by less" if len(off) > 1 else "")
-            + ": near that pose such a loop folds over, or stops; if links are equal by design, give more digits, "
-            f"or have them made so with align={level:g}"
-        )
-    return joints, noted
+        if _closes_throughout(linkage, loop_group, found, level):
+            return found, off
+    return joints, []
+
+
+def _nearly_flat(linkage: Linkage, loops: Sequence[FlatLoop], unit: str) -> str:
+    """Say which of the loops misses lying flat by most."""
+    worst = max(loops, key=FlatLoop.off_by)
+    return (
+        f"the links between {listed([repr(linkage.joints[number].name) for number in worst.joints])} miss by "
+        f"{f'{worst.off_by():.1g} {unit}'.rstrip()} lying flat in one line"
+        + (f", and those of {len(loops) - 1} more loops by less" if len(loops) > 1 else "")
+        + ": near that pose such a loop folds over, or stops; if links are equal by design, give more digits, or have "
+        f"them made so with align={MISALIGNMENT_LEVELS[0]:g}"
+    )
 
 
 def _bodies_of(linkage: Linkage, loop_group: LoopGroup, joints: Sequence[Joint]) -> dict[int, tuple[str, str]]:
