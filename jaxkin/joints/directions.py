@@ -6,6 +6,8 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 Directions = Float[np.ndarray, "directions 3"]
+RESOLVED = 1e-7
+"""Angle down to which 1 - |cos| = angle^2 / 2 tells angles in float64, radians; smaller ones their sine tells."""
 
 
 def components(near: Bool[np.ndarray, "n n"]) -> list[Int[np.ndarray, "members"]]:
@@ -37,8 +39,10 @@ def align_directions(directions: Directions, noise: float) -> Directions:
     """
     if len(directions) == 0:
         return directions
-    # 1 - |cos| = angle^2 / 2 resolves angles down to 2e-8 rad in float64, far below the noise
-    near = 1.0 - np.abs(directions @ directions.T) < noise**2 / 2
+    near = 1.0 - np.abs(directions @ directions.T) < max(noise, RESOLVED) ** 2 / 2
+    if noise < RESOLVED:
+        one, other = np.nonzero(near)
+        near[one, other] = np.linalg.norm(np.cross(directions[one], directions[other]), axis=1) < noise
 
     def same_sense(members) -> Directions:
         return directions[members] * np.where(directions[members] @ directions[members[0]] < 0, -1.0, 1.0)[:, None]

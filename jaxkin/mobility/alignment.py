@@ -25,10 +25,9 @@ from jaxkin.joints.joint import Joint
 from jaxkin.joints.regularise import Noise, align
 from jaxkin.linkage.host_closure import ClosedLoops
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.mobility.change_points import EXACT, FlatLoop, flat_loops, laid_flat
+from jaxkin.mobility.change_points import EXACT, FlatLoop, bodies_of, flat_loops, laid_flat
 from jaxkin.mobility.consistency import STILL, beside, rounding
 from jaxkin.mobility.nearest_mobile import nearest_mobile
-from jaxkin.topology.components import connected
 from jaxkin.topology.structure import LoopGroup
 
 SIX_DIGITS = 5e-6
@@ -44,6 +43,9 @@ _SINGLE_PRECISION_NOISE = 6e-7
 files are written in single precision, so that the error of an origin grows with that distance."""
 _ROUNDING = 1e-13
 """Change of a frame, radians or lengths over `extent`, that counts as none: some 450 units of rounding of float64."""
+_NEARLY_EXACT = 1e-11
+"""Misalignment, same units, up to which loops may seem to move as they are, and count as planar, for all of which they
+are open by more than the tolerance of closed poses; twists found by least squares leave as much."""
 _MIN_NAMED_SHARE = 0.5
 """A note names the joints that moved by more than this share of the largest move."""
 
@@ -141,14 +143,15 @@ def _aligned_group(linkage: Linkage, loop_group: LoopGroup, noise: float) -> tup
     given = [linkage.joints[number] for number in loop_group.joints]
     loops = _closed_loops(linkage, loop_group, given)
     for level in (noise, *(level for level in MISALIGNMENT_LEVELS if level > noise)):
-        found = beside(loops, level)
+        found = beside(loops, max(level, _ROUNDING))
         if found is None:  # no freedoms at this level
             continue
         if np.linalg.norm(found.residual) <= rounding(loops):
             if found.moved >= STILL:
-                return 0.0, given
+                again = _nearly_exact(given)
+                return 0.0, again if _correction(given, again) else given
             continue  # closed, but back at the assembled pose
-        if joints := _joints_that_move(linkage, loop_group, level):
+        if level and (joints := _joints_that_move(linkage, loop_group, level)):
             return level, joints
     return 0.0, given
 
@@ -160,14 +163,21 @@ def _joints_that_move(linkage: Linkage, loop_group: LoopGroup, level: float) -> 
     """
     given = [linkage.joints[number] for number in loop_group.joints]
     related = _with_exact_relations(given, _noise(given, level))
-    for joints in (
-        related,
-        _nearest_mobile_joints(linkage, loop_group, related, level),
-        _nearest_mobile_joints(linkage, loop_group, given, level),
-    ):
-        if joints and _closes_throughout(linkage, loop_group, joints, level):
-            return joints
+    if _closes_throughout(linkage, loop_group, related, level):
+        return related
+    for begun in (related, given):
+        found = _nearest_mobile_joints(linkage, loop_group, begun, level)
+        # twists of least norm take axes out of parallel; the second ones are smaller by many orders
+        again = found and _nearest_mobile_joints(linkage, loop_group, _nearly_exact(found), level)
+        for joints in (again, found):
+            if joints and _closes_throughout(linkage, loop_group, joints, level):
+                return joints
     return None
+
+
+def _nearly_exact(joints: Sequence[Joint]) -> list[Joint]:
+    """Make axes exactly parallel and so on that are by `_NEARLY_EXACT`: loops of a plane close to the tilt of axes."""
+    return _with_exact_relations(joints, Noise(_NEARLY_EXACT, _NEARLY_EXACT * extent(joints)))
 
 
 def _laid_flat(
@@ -179,7 +189,7 @@ def _laid_flat(
     loops where that fails. Loops of fewer than `least_sums` sums are left out: only equal links make two of them zero.
     """
     numbered, size = dict(zip(loop_group.joints, joints, strict=True)), extent(joints)
-    loops = flat_loops(numbered, _bodies_of(linkage, loop_group, joints), level * size)
+    loops = flat_loops(numbered, bodies_of(linkage.structure, numbered), level * size)
     loops = [loop for loop in loops if len(loop.signs) >= least_sums]
     off = [loop for loop in loops if loop.off_by() > EXACT * size]
     if off and level and (moved := laid_flat(loops, numbered, level * size, size)):
@@ -199,16 +209,6 @@ def _nearly_flat(linkage: Linkage, loops: Sequence[FlatLoop], unit: str) -> str:
         + ": near that pose such a loop folds over, or stops; if links are equal by design, give more digits, or have "
         f"them made so with align={MISALIGNMENT_LEVELS[0]:g}"
     )
-
-
-def _bodies_of(linkage: Linkage, loop_group: LoopGroup, joints: Sequence[Joint]) -> dict[int, tuple[str, str]]:
-    """Map each joint of a group to the bodies of its parts, of which fixed joints make one."""
-    structure = linkage.structure
-    ends = {n: tuple(structure.row_of[part] for part in structure.joint_parts[n]) for n in loop_group.joints}
-    welds = [ends[n] for n, joint in zip(loop_group.joints, joints, strict=True) if not joint.freedoms]
-    groups = connected({row for pair in ends.values() for row in pair}, welds)
-    body = {row: min(group) for group in groups for row in group}
-    return {n: (body[one], body[other]) for n, (one, other) in ends.items()}
 
 
 def _noise(joints: Sequence[Joint], level: float) -> Noise:

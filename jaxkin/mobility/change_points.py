@@ -30,6 +30,7 @@ from jaxkin.joints.joint import Joint
 from jaxkin.linkage.planes import ALIGNED
 from jaxkin.topology.components import connected
 from jaxkin.topology.graph import Circuit, WalkStep
+from jaxkin.topology.structure import Structure
 
 EXACT = 1e-13
 """How far a sum of links may be from zero, over the size of the loops, and count as zero: rounding of float64."""
@@ -110,6 +111,15 @@ def flat_loops(joints: Mapping[int, Joint], ends: Mapping[int, tuple[str, str]],
         if len(near := signs[np.abs(signs @ lengths) <= most]):
             found.append(FlatLoop(links, near))
     return found
+
+
+def bodies_of(structure: Structure, joints: Mapping[int, Joint]) -> dict[int, tuple[str, str]]:
+    """Map joints, by number, to the bodies of part 1 and part 2: fixed joints make one body of their parts."""
+    ends = {n: tuple(structure.row_of[part] for part in structure.joint_parts[n]) for n in joints}
+    welds = [ends[n] for n, joint in joints.items() if not joint.freedoms]
+    groups = connected({row for pair in ends.values() for row in pair}, welds)
+    body = {row: min(group) for group in groups for row in group}
+    return {n: (body[one], body[other]) for n, (one, other) in ends.items()}
 
 
 def laid_flat(

@@ -166,13 +166,26 @@ def test_chain_of_small_steps_is_no_noise():
     assert pair[0, 2] == pytest.approx(0.45e-4) == pair[1, 2]
 
 
-def test_nothing_moves_farther_than_the_noise_twice():
+@pytest.mark.parametrize("noise", [1e-6, 1e-11])
+def test_nothing_moves_farther_than_the_noise_twice(noise):
     """Random bundles of directions around the threshold: parallel costs one noise at most, perpendicular another."""
     rng = np.random.default_rng(0)
     for _ in range(50):
-        bundle = np.concatenate([unit_rows(axis + rng.normal(size=(5, 3)) * 0.7e-6) for axis in np.eye(3)])
-        moved_by = np.linalg.norm(align_directions(bundle, 1e-6) - bundle, axis=1)
-        assert moved_by.max() <= 2e-6
+        bundle = np.concatenate([unit_rows(axis + rng.normal(size=(5, 3)) * 0.7 * noise) for axis in np.eye(3)])
+        moved_by = np.linalg.norm(align_directions(bundle, noise) - bundle, axis=1)
+        assert moved_by.max() <= 2 * noise
+
+
+@pytest.mark.parametrize("noise", [1e-6, 1e-8, 1e-11])
+def test_directions_within_the_noise_become_one_and_others_stay(noise):
+    """Also where the cosine of the angle is 1 to rounding."""
+    rng = np.random.default_rng(1)
+    axis = unit_rows(rng.normal(size=(1, 3)))
+    near = unit_rows(axis + 0.2 * noise * rng.uniform(-1, 1, (6, 3)))
+    far = unit_rows(axis + 20 * noise * np.array([[1.0, -2.0, 0.5]]))
+    aligned = align_directions(np.concatenate([near, far]), noise)
+    assert np.array_equal(aligned[:6], np.tile(aligned[0], (6, 1)))
+    np.testing.assert_allclose(aligned[6:], far, atol=1e-15)
 
 
 def unit_rows(rows):
