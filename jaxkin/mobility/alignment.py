@@ -46,6 +46,8 @@ _ROUNDING = 1e-13
 _NEARLY_EXACT = 1e-11
 """Misalignment, same units, up to which loops may seem to move as they are, and count as planar, for all of which they
 are open by more than the tolerance of closed poses; twists found by least squares leave as much."""
+_SLACK = 10.0
+"""Residual over rounding that is left where twists are followed by what makes axes exact: a tenth of what is closed."""
 _MIN_NAMED_SHARE = 0.5
 """A note names the joints that moved by more than this share of the largest move."""
 
@@ -167,11 +169,12 @@ def _joints_that_move(linkage: Linkage, loop_group: LoopGroup, level: float) -> 
         return related
     for begun in (related, given):
         found = _nearest_mobile_joints(linkage, loop_group, begun, level)
-        # twists of least norm take axes out of parallel; the second ones are smaller by many orders
-        again = found and _nearest_mobile_joints(linkage, loop_group, _nearly_exact(found), level)
-        for joints in (again, found):
-            if joints and _closes_throughout(linkage, loop_group, joints, level):
-                return joints
+        # twists of least norm take axes a little out of parallel; without that, loops close as well but for rounding
+        again = found and _nearly_exact(found)
+        if again and _closes_throughout(linkage, loop_group, again, level, _SLACK):
+            return again
+        if found and _closes_throughout(linkage, loop_group, found, level):
+            return found
     return None
 
 
@@ -253,12 +256,15 @@ def _nearest_mobile_joints(
     return found
 
 
-def _closes_throughout(linkage: Linkage, loop_group: LoopGroup, joints: Sequence[Joint], level: float) -> bool:
-    """Tell whether the loops with these joints close, to rounding, beside the assembled pose in three directions."""
+def _closes_throughout(
+    linkage: Linkage, loop_group: LoopGroup, joints: Sequence[Joint], level: float, slack: float = 1.0
+) -> bool:
+    """Tell whether the loops with these joints close, to `slack` times rounding, beside the assembled pose in three
+    directions."""
     loops = _closed_loops(linkage, loop_group, joints)
     for seed in range(3):
         found = beside(loops, level, seed)
-        if found is None or np.linalg.norm(found.residual) > rounding(loops) or found.moved < STILL:
+        if found is None or np.linalg.norm(found.residual) > slack * rounding(loops) or found.moved < STILL:
             return False
     return True
 
