@@ -26,8 +26,8 @@ from jaxkin.effects.determined_drive import check_determined
 from jaxkin.effects.mode_plot import draw_modes
 from jaxkin.effects.mode_search import FoundPoses, PoseFeatures, Starts, find_modes, wrap_angles
 from jaxkin.effects.pose_plot import save_displacements
+from jaxkin.linkage.closed_loops import closed_loops
 from jaxkin.linkage.coordinates import coordinate, resolve
-from jaxkin.linkage.host_closure import ClosedLoops
 from jaxkin.mechanism.drive_plan import DrivenLoopGroup, plan_drive
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mobility.loop_freedoms import loop_freedoms
@@ -214,7 +214,7 @@ def assembly_modes(
     starts, searched = Starts(tries, seed, options), []
     for loop_group in plan.loop_groups:
         number = linkage.structure.loop_groups.index(loop_group.members)
-        loops = ClosedLoops.of(linkage, loop_group.members)
+        loops = closed_loops(linkage, loop_group.members)
         features = PoseFeatures(loops, len(loop_freedoms(linkage)[number].motions) - len(loop_group.inputs))
         if reached is None:
             home = np.zeros(len(loop_group.columns)), loops.travel(np.zeros(len(loops.columns))).residual_norm

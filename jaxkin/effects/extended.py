@@ -17,7 +17,7 @@ from jaxkin.geometry.elementary_motions import ElementaryMotion, amount, displac
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.patches import FollowedPoint, FollowedSpline, bicubic, patch_point
 from jaxkin.joints.joint import Joint
-from jaxkin.linkage.host_closure import ClosedLoops
+from jaxkin.linkage.closed_loops import closed_loops
 from jaxkin.topology.structure import LoopGroup
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ class Extended:
         self.mp.dps = DIGITS
         self.loop_group, self.free = loop_group, list(free)
         self.joints = {index: mechanism.all_joints[index] for index in loop_group.joints}
-        self.loops = ClosedLoops.of(mechanism.linkage, loop_group)
+        self.loops = closed_loops(mechanism.linkage, loop_group)
 
     def closed(self, q: Row) -> tuple[Row, bool]:
         """Find the exact pose near `q` with the same driven coordinates; returns it rounded, and whether it converged.

@@ -25,8 +25,8 @@ from jaxkin.effects.motion_curve import MotionCurve
 from jaxkin.effects.pose_plot import save_displacements
 from jaxkin.geometry.movements import is_length
 from jaxkin.joints.joint import JointCoordinate
+from jaxkin.linkage.closed_loops import closed_loops
 from jaxkin.linkage.coordinates import coordinate, coordinates
-from jaxkin.linkage.host_closure import ClosedLoops
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.joint_limits import rounding
 from jaxkin.mechanism.motion import Motion
@@ -142,7 +142,7 @@ def limits(
 
 def _curve(linkage: Linkage, group: LoopGroup, driven: Sequence[JointCoordinate]) -> MotionCurve:
     """Make the curve along which the first of `driven` moves the loops of a group, with the others at rest."""
-    loops = ClosedLoops.of(linkage, group)
+    loops = closed_loops(linkage, group)
     freedoms = loop_freedoms(linkage)[linkage.structure.loop_groups.index(group)]
     drive, *held = (loops.columns.index(each) for each in driven if each in loops.columns)
     return MotionCurve(loops, drive, held, idle=len(freedoms.motions) - 1 - len(held))
@@ -280,7 +280,7 @@ def _residual(mechanism: Mechanism, pose: Mapping[str, Float[np.ndarray, " _"]])
     """Compute the square root of Eq. 12 over all loops in a pose."""
     linkage, squares = mechanism.linkage, 0.0
     for group in linkage.structure.loop_groups:
-        loops = ClosedLoops.of(linkage, group)
+        loops = closed_loops(linkage, group)
         q = np.array([pose[mechanism.all_joints[joint].name][k] for joint, k in loops.columns])
         squares += loops.travel(q / loops.units).residual_norm ** 2
     return squares**0.5

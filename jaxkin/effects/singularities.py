@@ -18,8 +18,8 @@ from jaxkin.effects.pose_plot import save_rows
 from jaxkin.effects.workspace import Workspace, drawn
 from jaxkin.effects.workspace_plot import draw_workspace
 from jaxkin.geometry.pose import apply
+from jaxkin.linkage.closed_loops import closed_loops
 from jaxkin.linkage.coordinates import coordinate
-from jaxkin.linkage.host_closure import ClosedLoops
 from jaxkin.mechanism.placed_at import part_places
 from jaxkin.mobility.loop_freedoms import loop_freedoms
 from jaxkin.solve.status import Status
@@ -76,7 +76,7 @@ def singularities(workspace: Workspace) -> Singularities:
     if not groups or places[1][0] not in linkage.structure.loop_groups[groups[0]].joints:
         raise ValueError("the two inputs move no loop together: the limits of each are those of jk.limits")
     group = linkage.structure.loop_groups[groups[0]]
-    loops = ClosedLoops.of(linkage, group)
+    loops = closed_loops(linkage, group)
     columns = [loops.columns.index(place) for place in places if place in loops.columns]
     idle = len(loop_freedoms(linkage)[groups[0]].motions) - len(columns)
     joints = {index: linkage.joints[index] for index in group.joints}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import jax
 import numpy as np
@@ -18,9 +18,6 @@ from jaxkin.joints.joint import Joint
 from jaxkin.joints.screws import Screws, chain, moved
 from jaxkin.linkage.first_order import DOUBLE, SINGLE
 from jaxkin.topology.structure import LoopGroup, Structure
-
-if TYPE_CHECKING:
-    from jaxkin.linkage.linkage import Linkage
 
 _ITERATIONS = 200
 """Largest number of steps: two dozen close loops that are wide open, and the others are for loops that cannot close."""
@@ -109,11 +106,6 @@ class ClosedLoops:
     of these from it, the characteristic length.
     """
 
-    @staticmethod
-    def of(linkage: Linkage, loop_group: LoopGroup) -> ClosedLoops:
-        """Take the loops of a loop group of a linkage, of the joints that are solved, and its couplings."""
-        return ClosedLoops(linkage.solved_joints, linkage.structure, loop_group, linkage.couplings)
-
     def __init__(
         self,
         every: Sequence[Joint],
@@ -121,7 +113,10 @@ class ClosedLoops:
         loop_group: LoopGroup,
         couplings: Sequence[Coupling] = (),
     ) -> None:
-        """Take the loops of `loop_group`; `every` are all joints and `couplings` all couplings of the linkage."""
+        """Take the loops of `loop_group`; `every` are all joints and `couplings` all couplings of the linkage.
+
+        `jaxkin.linkage.closed_loops` takes those of a linkage.
+        """
         joints = {index: every[index] for index in loop_group.joints}
         self.loop_group = loop_group
         self.columns = tuple((index, k) for index, joint in joints.items() for k in range(joint.freedoms))

@@ -19,6 +19,7 @@ from jaxkin._names import listed
 from jaxkin._traced import traced
 from jaxkin.geometry.pose import Pose, turned_by
 from jaxkin.joints.joint import JointCoordinate
+from jaxkin.linkage.closed_loops import closed_loops
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.host_closure import ClosedLoops, Row
 from jaxkin.linkage.linkage import Linkage
@@ -158,7 +159,7 @@ def _close_group(
     linkage: Linkage, loop_group: LoopGroup, fixed: Container[JointCoordinate], noise: float
 ) -> _ClosedGroup:
     """Close loops from the given pose; where the steps end at a residual, by the nearest of those from other starts."""
-    loops = ClosedLoops.of(linkage, loop_group)
+    loops = closed_loops(linkage, loop_group)
     q, held = np.zeros(len(loops.columns)), [k for k, column in enumerate(loops.columns) if column in fixed]
     before = loops.travel(q).residual_norm
     if loops.coincide or before <= loops.thresholds.residual:

@@ -16,8 +16,9 @@ from jaxkin._memory import once_for_each
 from jaxkin.geometry.pose import Pose
 from jaxkin.joints.screws import Screws
 from jaxkin.joints.subgroups import Subgroup, subgroup
+from jaxkin.linkage.closed_loops import closed_loops
 from jaxkin.linkage.first_order import loop_jacobian, null_space
-from jaxkin.linkage.host_closure import ClosedLoops, Row, Travel, least_norm
+from jaxkin.linkage.host_closure import Row, Travel, least_norm
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.topology.structure import LoopGroup
 
@@ -33,7 +34,7 @@ class LoopFreedoms:
     """
 
     def __init__(self, linkage: Linkage, loop_group: LoopGroup) -> None:
-        self._loops = ClosedLoops.of(linkage, loop_group)
+        self._loops = closed_loops(linkage, loop_group)
         self.loop_group = loop_group
         self.columns = self._loops.columns
         """(joint, coordinate) of each column: the coordinates of the joints of the loop group in turn."""

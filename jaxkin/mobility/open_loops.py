@@ -10,6 +10,7 @@ from jaxkin._names import listed
 from jaxkin._traced import traced
 from jaxkin.geometry.pose import apply, turned_by
 from jaxkin.joints.screws import complement, freedoms
+from jaxkin.linkage.closed_loops import closed_loops
 from jaxkin.linkage.host_closure import ClosedLoops, Row, Travel
 from jaxkin.linkage.linkage import Linkage
 
@@ -52,7 +53,7 @@ def opening(linkage: Linkage, unit: str = "") -> Opening | None:
         return None
     worst: Opening | None = None
     for loop_group in linkage.structure.loop_groups:
-        loops = ClosedLoops.of(linkage, loop_group)
+        loops = closed_loops(linkage, loop_group)
         at_rest = np.zeros(len(loops.columns))
         if loops.coincide or (norm := loops.travel(at_rest).residual_norm) <= loops.thresholds.residual:
             continue

@@ -6,6 +6,7 @@ from jaxkin.geometry.pose import frame
 from jaxkin.joints.joint import joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.pairs import planar
+from jaxkin.linkage.closed_loops import closed_loops
 from jaxkin.linkage.host_closure import ClosedLoops
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.mechanism import Mechanism
@@ -14,7 +15,7 @@ X, Y = frame(np.array([40.0, 0.0, 0.0]), np.array([1.0, 0.0, 0.0])), frame(np.ze
 
 
 def loops_of(linkage: Linkage) -> ClosedLoops:
-    return ClosedLoops(linkage.solved_joints, linkage.structure, linkage.structure.loop_groups[0])
+    return closed_loops(linkage, linkage.structure.loop_groups[0])
 
 
 def test_numbered_slides_are_lengths():
