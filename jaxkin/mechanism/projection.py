@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -65,6 +65,19 @@ class Projection:
         return "\n".join(lines)
 
 
+class _Collected(NamedTuple):
+    """The poses that were found, of all loop groups together."""
+
+    displacements: tuple[Float[Array, "poses _"], ...]
+    """Of all joints."""
+    status: Int[Array, " poses"]
+    residual: Float[Array, " poses"]
+    distance: Float[Array, " poses"]
+    """See `Projection.distance`."""
+    nearest: Bool[Array, " poses"]
+    """See `Projection.nearest`."""
+
+
 jax.tree_util.register_dataclass(Projection, data_fields=["motion", "distance", "nearest"], meta_fields=[])
 
 
@@ -114,15 +127,16 @@ def project(
         )
         resting = tuple(place for place in factors if place[0] in loop_group.joints and place not in columns)
         solved.append((columns, resting))
-    displacements, status, residual, distance, best = _collect(tuple(solved), every, finite, found)
+    poses = _collect(tuple(solved), every, finite, found)
+    status = poses.status
     if linkage.ideal:  # what closed are the nearest joints that agree
         status = jnp.where(status == Status.CLOSED.value, Status.MISFIT.value, status)
     if not traced(linkage) and dead_point(linkage, list(held.values())):
         status = in_doubt(status)
     names = held or coordinates(linkage, mechanism.motors or _first(mechanism))
-    inputs = {name: displacements[joint][:, k] for name, (joint, k) in names.items()}
-    motion = with_limited(Motion(mechanism, inputs, displacements, status, residual, options=options, swept=False))
-    return Projection(motion, distance, best)
+    inputs = {name: poses.displacements[joint][:, k] for name, (joint, k) in names.items()}
+    motion = Motion(mechanism, inputs, poses.displacements, status, poses.residual, options=options, swept=False)
+    return Projection(with_limited(motion), poses.distance, poses.nearest)
 
 
 @partial(jax.jit, static_argnums=0)
@@ -131,14 +145,8 @@ def _collect(
     given: list[Float[Array, "poses _"]],
     finite: Bool[Array, " poses"],
     found: list[NearestPoses],
-) -> tuple[
-    tuple[Float[Array, "poses _"], ...],
-    Int[Array, " poses"],
-    Float[Array, " poses"],
-    Float[Array, " poses"],
-    Bool[Array, " poses"],
-]:
-    """Collect displacements of all joints, status, residual, distance and whether it is the nearest pose.
+) -> _Collected:
+    """Collect what was found for the loop groups; displacements, residual and distance are NaN where not `finite`.
 
     `solved` are the (joint, coordinate) of each loop group that were moved, and those that rest.
     """
@@ -146,13 +154,13 @@ def _collect(
     moved = {(joint, k): row for joint, rows in enumerate(given) for k, row in enumerate(rows.T)}
     worst = jnp.where(finite, 0, SEVERITY.index(Status.NONFINITE))
     square = residual = jnp.zeros(poses, given[0].dtype)
-    best = finite
+    nearest_of_all = finite
     for (columns, resting), each in zip(solved, found, strict=True):
         moved |= {place: row[:poses] for place, row in zip(columns, each.displacements, strict=True)}
         moved |= dict.fromkeys(resting, jnp.zeros(poses, given[0].dtype))  # along the normal of a planar group
         worst = jnp.maximum(worst, severity(each.status[:poses]))
         square, residual = square + each.square[:poses], residual + each.residual_norm[:poses] ** 2
-        best = best & each.nearest[:poses]
+        nearest_of_all = nearest_of_all & each.nearest[:poses]
     status = of_severity(worst)
     displacements = tuple(
         jnp.stack([moved[joint, k] for k in range(rows.shape[1])], axis=1) if rows.shape[1] else rows
@@ -160,7 +168,7 @@ def _collect(
     )
     norms = jnp.sqrt(residual), root(square)
     displacements, (residual, distance) = nan_where_not_finite((displacements, norms), finite)
-    return displacements, status, residual, distance, best
+    return _Collected(displacements, status, residual, distance, nearest_of_all)
 
 
 def _first(mechanism: Mechanism) -> tuple[str, ...]:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -158,6 +158,17 @@ jax.tree_util.register_dataclass(
 )
 
 
+class _JointRows(NamedTuple):
+    """The fields of `Reactions` of these names, of all joints in the order of the linkage."""
+
+    points: Rows
+    forces: Rows
+    torques: Rows
+    drives: Inputs
+    """By full name of the driven coordinate."""
+    held: Rows
+
+
 def reactions(
     motion: Motion,
     masses: Masses | None = None,
@@ -187,17 +198,18 @@ def reactions(
     if frictions := loads_and_frictions(acting)[1]:
         moving, all_loads = acting_on(unit, True, linkage, found, numbers)
         frictional, result = friction(motion, drive, moving, all_loads, frictions)
-        found = _balanced(drive, unit, linkage, known.status, moving, all_loads, frictional)
+        rows = _balanced(drive, unit, linkage, known.status, moving, all_loads, frictional)
         if result is not None:
-            found = found[0], *jax.tree.map(partial(_nan_where, result.locked), found[1:])
+            rows = jax.tree.map(partial(_nan_where, result.locked), rows)._replace(points=rows.points)
     else:
-        found = _without_friction(drive, unit, linkage, known.status, found, numbers)
-    places, forces, torques, drives, held = found
+        rows = _without_friction(drive, unit, linkage, known.status, found, numbers)
 
-    def named(rows: Sequence[Array]) -> Named[Array]:
-        return Named("joint", zip(mechanism.joints, rows, strict=True))
+    def named(of_joints: Sequence[Array]) -> Named[Array]:
+        return Named("joint", zip(mechanism.joints, of_joints, strict=True))
 
-    return Reactions(motion, named(places), named(forces), named(torques), drives, named(held), result)
+    return Reactions(
+        motion, named(rows.points), named(rows.forces), named(rows.torques), rows.drives, named(rows.held), result
+    )
 
 
 def _nan_where(locked: Array, rows: Array) -> Array:
@@ -208,12 +220,10 @@ def _nan_where(locked: Array, rows: Array) -> Array:
 @partial(whole_program, static=(0, 1))
 def _without_friction(
     drive: KnownDrive, unit: str, linkage: Linkage, status: Int[Array, " poses"], found: Changes, acting: ActingNumbers
-) -> tuple[Rows, Rows, Rows, Inputs, Rows]:
+) -> _JointRows:
     """Compute what `_balanced` returns, by groups of poses that are placed and solved one after another."""
 
-    def of_group(
-        given: tuple[Int[Array, " poses"], Changes], acting: ActingNumbers
-    ) -> tuple[Rows, Rows, Rows, Inputs, Rows]:
+    def of_group(given: tuple[Int[Array, " poses"], Changes], acting: ActingNumbers) -> _JointRows:
         status, found = given
         moving = MovingParts.of(linkage, found, chords=True)
         return _balanced(drive, unit, linkage, status, moving, loads(linkage, unit, acting, moving), {})
@@ -230,8 +240,8 @@ def _balanced(
     moving: MovingParts,
     all_loads: Loads,
     frictional: dict[int, Wrench],
-) -> tuple[Rows, Rows, Rows, Inputs, Rows]:
-    """Compute the rows of `Reactions`: points, forces, torques about the points, drive forces, and what is held.
+) -> _JointRows:
+    """Balance all parts in each pose, and compute what joints transmit: NaN at poses that are not closed.
 
     The wrenches `frictional` of friction act on part 2 of joints, by number.
     """
@@ -270,4 +280,4 @@ def _balanced(
         for arm, wrench in zip(found.arms, sent.wrenches, strict=True)
     )
     points = tuple((size * arm + middle[:, None]).T for arm in found.arms)
-    return points, forces, torques, drives, held
+    return _JointRows(points, forces, torques, drives, held)

@@ -15,6 +15,7 @@ from jaxtyping import Array, Float
 
 from jaxkin.geometry.patches import Followed
 from jaxkin.solve.closure.couplings import coupling_closure, scaled_couplings
+from jaxkin.solve.closure.loop_closure import LoopClosure
 from jaxkin.solve.closure.planar import Planar, planar_closure, planar_geometry
 from jaxkin.solve.closure.spatial import spatial_closure
 from jaxkin.solve.closure.spatial_geometry import Spatial, spatial_geometry
@@ -54,13 +55,14 @@ def closure(system: LoopSystem, geometry: Geometry, state: State) -> Closure:
     """Evaluate residual, Jacobian and norms of all loops at a state, lengths over the characteristic length."""
     poses, off_plane = state.x.shape[-1], 0.0
     if not system.loops:  # couplings of joints in no loop
-        residual, of_rotation, of_rest = jnp.zeros((0, poses)), jnp.zeros(poses), jnp.zeros(poses)
         jacobian = jnp.zeros((0, system.columns, poses))
+        of_loops = LoopClosure(jnp.zeros((0, poses)), jacobian, jnp.zeros(poses), jnp.zeros(poses))
     elif isinstance(geometry.loops, Planar):
-        residual, jacobian, of_rotation, of_rest = planar_closure(system, geometry.loops, state.x)
+        of_loops = planar_closure(system, geometry.loops, state.x)
         off_plane = geometry.loops.off_plane
     else:
-        residual, jacobian, of_rotation, of_rest = spatial_closure(system, geometry.loops, state)
+        of_loops = spatial_closure(system, geometry.loops, state)
+    residual, jacobian, of_rotation, of_rest = of_loops
     if system.couplings:
         of_couplings, slopes = coupling_closure(system, geometry.couplings, state.x)
         residual, jacobian = jnp.concatenate([residual, of_couplings]), jnp.concatenate([jacobian, slopes])

@@ -20,6 +20,7 @@ from jax import lax
 from jaxtyping import Array, Float
 
 from jaxkin.geometry.trig import cos_sin
+from jaxkin.solve.closure.loop_closure import LoopClosure
 from jaxkin.solve.closure.spatial_geometry import Spatial
 from jaxkin.solve.system.chain_tables import chain_tables
 from jaxkin.solve.system.loop_system import LoopSystem
@@ -54,13 +55,10 @@ class Planar(NamedTuple):
     """Squared residual out of the plane (Eq. 12), which no motion in the plane can close."""
 
 
-def planar_closure(
-    system: LoopSystem, geometry: Planar, x: Float[Array, "columns poses"]
-) -> tuple[Array, Array, Array, Array]:
-    """Evaluate residual, Jacobian, and the squares of rotation and of translation in Eq. 12, as in `closure.Closure`.
+def planar_closure(system: LoopSystem, geometry: Planar, x: Float[Array, "columns poses"]) -> LoopClosure:
+    """Evaluate the closure of all loops in the plane.
 
-    Shapes: (equations, poses), (equations, columns, poses), (poses,), (poses,). A loop has three equations: the sine of
-    the rotation that is left open, and two translations.
+    A loop has three equations: the sine of the rotation that is left open, and two translations.
     """
     poses = x.shape[-1]
     padded = jnp.concatenate([x, jnp.zeros_like(x[:1])])
@@ -79,7 +77,7 @@ def planar_closure(
         jacobian = _along_links(system, geometry, terms)
     else:
         jacobian = jnp.einsum("lrt,ltp->lrp", geometry.jacobian, jnp.concatenate(terms, axis=1))
-    return (
+    return LoopClosure(
         jnp.concatenate([rest_sin[:, None], moved], axis=1).reshape(system.loop_equations, poses),
         jacobian.reshape(system.loop_equations, system.columns, poses),
         rotated,

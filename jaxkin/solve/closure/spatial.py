@@ -26,6 +26,7 @@ from jaxtyping import Array, Float
 
 from jaxkin.geometry.trig import cos_sin
 from jaxkin.solve.closure.along_curves import along_curves, law_numbers
+from jaxkin.solve.closure.loop_closure import LoopClosure
 from jaxkin.solve.closure.rod_spin import lengths, turn_between, vee
 from jaxkin.solve.closure.spatial_geometry import Spatial
 from jaxkin.solve.system.chain_tables import ChainTables, chain_tables, distinct_tables
@@ -38,11 +39,11 @@ Rotation = Float[Array, "3 3 *poses"]
 Vector = Float[Array, "3 *poses"]
 
 
-def spatial_closure(system: LoopSystem, geometry: Spatial, state: State) -> tuple[Array, Array, Array, Array]:
-    """Evaluate residual, Jacobian, and the squares of rotation and translation in Eq. 12: see `closure.Closure`.
+def spatial_closure(system: LoopSystem, geometry: Spatial, state: State) -> LoopClosure:
+    """Evaluate the closure of all loops in space.
 
-    Shapes: (equations, poses), (equations, columns, poses), (poses,), (poses,). Rows are in the order of
-    `LoopSystem.sections`. Columns are those of `LoopSystem`; the columns of a ball are rotations about world axes.
+    Rows are in the order of `LoopSystem.sections`. Columns are those of `LoopSystem`; the columns of a ball are
+    rotations about world axes.
     """
     rotation, translation, twists = _travel(system, geometry, state)
     table, poses, sections = chain_tables(system), state.x.shape[-1], system.sections
@@ -82,7 +83,7 @@ def spatial_closure(system: LoopSystem, geometry: Spatial, state: State) -> tupl
     residual = jnp.concatenate(residual)
     slopes = jnp.concatenate([row.reshape(len(table.used), -1, poses) for row in rows], axis=1)
     jacobian = scatter_rows(slopes, table.used, system.columns).swapaxes(0, 1)
-    return residual, jacobian, jnp.sum(turned**2, axis=(0, 1, 2)), squares
+    return LoopClosure(residual, jacobian, jnp.sum(turned**2, axis=(0, 1, 2)), squares)
 
 
 def _about_points(

@@ -133,32 +133,40 @@ def predict(system: LoopSystem, samples: BranchSamples, values: Float[Array, " p
         values = values - TURN * turns
     number = jnp.clip(jnp.searchsorted(samples.at, values, side="left") - 1, samples.first, samples.last - 1)
     left, right = _sample(system, samples, number), _sample(system, samples, number + 1)
-    between, beyond, from_left, trusted = _trusted_side(left, right, values)
-    nearest = select_poses(from_left, left.state, right.state)
-    nearest = select_poses(beyond, _weighted(system, left, right, values), nearest)
+    side = _trusted_side(left, right, values)
+    nearest = select_poses(side.is_left, left.state, right.state)
+    nearest = select_poses(side.beyond, _weighted(system, left, right, values), nearest)
     width, t = _fraction(left, right, values)
     curve = hermite(left.state, left.slope, right.state, right.slope, width, t)
     # a path of several inputs is bent anew at each pose: a quintic is no better there
     if len(system.driven) == 1 and is_costly(equation_blocks(system)):
         curve = _through_third(curve, left, right, _sample(system, samples, _third(samples, number, values)), t)
-    state = select_poses(between, retract(system, curve, jnp.zeros_like(curve.x)), nearest)
-    status = jnp.where(trusted, jnp.where(from_left, left.status, right.status), Status.JUMPED.value)
+    state = select_poses(side.between, retract(system, curve, jnp.zeros_like(curve.x)), nearest)
+    status = jnp.where(side.trusted, jnp.where(side.is_left, left.status, right.status), Status.JUMPED.value)
     if system.periodic:
         state = State(state.x + turns * samples.winding[:, None], state.turns)
     least, most = (samples.at.at[end].get(mode="promise_in_bounds") for end in (samples.first, samples.last))
     return Prediction(state, status, (values >= least - EXTRAPOLATED) & (values <= most + EXTRAPOLATED))
 
 
-def _trusted_side(
-    left: Sample, right: Sample, values: Float[Array, " poses"]
-) -> tuple[Bool[Array, " poses"], Bool[Array, " poses"], Bool[Array, " poses"], Bool[Array, " poses"]]:
+class _TrustedSide(NamedTuple):
+    """From which of its two neighbouring samples each pose is predicted."""
+
+    between: Bool[Array, " poses"]
+    """Whether both neighbours are closed with one status, so that the pose is interpolated between them."""
+    beyond: Bool[Array, " poses"]
+    """Whether the pose is beyond a limit, and the outer neighbour too: poses of least residual lie between them."""
+    is_left: Bool[Array, " poses"]
+    """Whether a pose that is neither of these belongs to the left neighbour."""
+    trusted: Bool[Array, " poses"]
+    """Whether the pose gets the status of its neighbour; if not, it is JUMPED where it closes."""
+
+
+def _trusted_side(left: Sample, right: Sample, values: Float[Array, " poses"]) -> _TrustedSide:
     """Choose the neighbouring samples from which the pose at each value is predicted.
 
-    Returns whether both neighbours are closed with one status, so that the pose is interpolated between them; whether
-    the pose is beyond a limit, and the outer neighbour too, so that poses of least residual lie between them; whether
-    the pose otherwise belongs to the left neighbour; and whether the pose gets the status of its neighbour (if not, it
-    is JUMPED where it closes). If the neighbours differ, there is a limit between them: the motion was followed to the
-    inner neighbour, which is nearer to the assembled pose, and the loops may close again at the outer one.
+    If the neighbours differ, there is a limit between them: the motion was followed to the inner neighbour, which is
+    nearer to the assembled pose, and the loops may close again at the outer one.
     """
     left_closed, right_closed = closes_before_limits(left.status), closes_before_limits(right.status)
     between = left_closed & (left.status == right.status)
@@ -171,7 +179,7 @@ def _trusted_side(
     trusted = between | (near_inner | ~belongs_to_inner) & nearest_closed
     inner_closed = jnp.where(rising, left_closed, right_closed)
     beyond = ~outer_closed & ~(inner_closed & near_inner)
-    return between, beyond, from_left, trusted
+    return _TrustedSide(between, beyond, from_left, trusted)
 
 
 def _wrapped(samples: BranchSamples, values: Float[Array, " poses"]) -> Float[Array, " poses"]:
