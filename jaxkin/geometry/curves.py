@@ -8,7 +8,6 @@ tangent, and all that is computed here is in that frame.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -16,8 +15,9 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from jax.lax import linalg
-from jax.tree_util import GetAttrKey
 from jaxtyping import Array, Float
+
+from jaxkin._pytree import register_leaves
 
 Given = Array | np.ndarray
 
@@ -79,23 +79,7 @@ class Curve:
         return replace(self, start=np.asarray(start), place=place)
 
 
-_LEAVES = ("points", "start", "place")
-
-
-def _rebuilt(closed: bool, leaves: Iterable[Any]) -> Curve:
-    """Rebuild a curve of leaves that may be no arrays, such as the answers of JAX to which of them are batched."""
-    curve = object.__new__(Curve)
-    for name, value in (("closed", closed), *zip(_LEAVES, leaves, strict=True)):
-        object.__setattr__(curve, name, value)
-    return curve
-
-
-jax.tree_util.register_pytree_with_keys(
-    Curve,
-    lambda curve: ([(GetAttrKey(name), getattr(curve, name)) for name in _LEAVES], curve.closed),
-    _rebuilt,
-    lambda curve: ([getattr(curve, name) for name in _LEAVES], curve.closed),
-)
+register_leaves(Curve, leaves=("points", "start", "place"), static=("closed",))
 
 
 class CurvePoint(NamedTuple):

@@ -8,15 +8,14 @@ computed here is in that frame.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import jax
 import numpy as np
-from jax.tree_util import GetAttrKey
 from jaxtyping import Float
 
+from jaxkin._pytree import register_leaves
 from jaxkin.geometry.curves import ROUNDING, Curve, CurvePoint, Given, Spline, length_at, number_at, slopes_at_knots
 
 
@@ -73,23 +72,7 @@ class Patch:
         return replace(self, start=np.array(start), place=place)
 
 
-_LEAVES = ("points", "start", "place", "height")
-
-
-def _rebuilt(closed: tuple[bool, bool], leaves: Iterable[Any]) -> Patch:
-    """Rebuild a patch of leaves that may be no arrays, such as the answers of JAX to which of them are batched."""
-    patch = object.__new__(Patch)
-    for name, value in (("closed", closed), *zip(_LEAVES, leaves, strict=True)):
-        object.__setattr__(patch, name, value)
-    return patch
-
-
-jax.tree_util.register_pytree_with_keys(
-    Patch,
-    lambda patch: ([(GetAttrKey(name), getattr(patch, name)) for name in _LEAVES], patch.closed),
-    _rebuilt,
-    lambda patch: ([getattr(patch, name) for name in _LEAVES], patch.closed),
-)
+register_leaves(Patch, leaves=("points", "start", "place", "height"), static=("closed",))
 
 
 class PatchPoint(NamedTuple):

@@ -17,11 +17,11 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jax.tree_util import GetAttrKey
 from jaxtyping import Float
 
 from jaxkin._arguments import by_name, one_number, text
 from jaxkin._names import nearest
+from jaxkin._pytree import register_leaves
 from jaxkin._traced import traced
 from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.joints.joint import Joint
@@ -64,17 +64,7 @@ class Coupling:
         return f"{said} = {float(self.offset) + 0.0:g}"  # 0.0 makes 0 of -0
 
 
-_LEAVES = ("coefficients", "offset")
-_STATIC = ("name", "coordinates", "angles")
-
-jax.tree_util.register_pytree_with_keys(
-    Coupling,
-    lambda coupling: (
-        [(GetAttrKey(name), getattr(coupling, name)) for name in _LEAVES],
-        tuple(getattr(coupling, name) for name in _STATIC),
-    ),
-    lambda static, leaves: Coupling(**dict(zip((*_STATIC, *_LEAVES), (*static, *leaves), strict=True))),
-)
+register_leaves(Coupling, leaves=("coefficients", "offset"), static=("name", "coordinates", "angles"))
 
 
 def gear(a: str, b: str, ratio: Number, *, name: str | None = None) -> Coupling:

@@ -12,16 +12,15 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from operator import attrgetter
 from typing import Any
 
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jax.tree_util import GetAttrKey
 from jaxtyping import Float
 
 from jaxkin._arguments import text
+from jaxkin._pytree import register_leaves
 from jaxkin._traced import traced
 from jaxkin.contacts.states import CONTACT_STATES, ContactState
 from jaxkin.geometry.curves import Spline
@@ -122,23 +121,10 @@ class Joint:
         return len(self.coordinates)
 
 
-# registered by hand, since `drop_fields` of `register_dataclass` works only from jax 0.10 on
-_LEAVES = ("frames_1", "frames_2", "pitch", "curves")
-_STATIC = ("name", "parts", "kind", "movements", "limits")
-# asked for in each call with a mechanism, and several times as fast as a comprehension
-_leaves, _static = attrgetter(*_LEAVES), attrgetter(*_STATIC)
-
-
-def _rebuilt(static: tuple[Any, ...], leaves: Iterable[Any]) -> Joint:
-    """Make a joint of its static fields and its leaves."""
-    return Joint(**dict(zip(_STATIC, static, strict=True)), **dict(zip(_LEAVES, leaves, strict=True)))
-
-
-jax.tree_util.register_pytree_with_keys(
+register_leaves(
     Joint,
-    lambda joint: (list(zip(map(GetAttrKey, _LEAVES), _leaves(joint), strict=True)), _static(joint)),
-    _rebuilt,
-    lambda joint: (_leaves(joint), _static(joint)),
+    leaves=("frames_1", "frames_2", "pitch", "curves"),
+    static=("name", "parts", "kind", "movements", "limits"),
 )
 
 
