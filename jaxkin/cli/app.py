@@ -18,18 +18,18 @@ from jaxkin.cli.arguments import (
     Files,
     Fixed,
     Ignore,
-    Loops,
+    LoopsFile,
     Out,
     Page,
     PerContact,
     Picture,
     Rigid,
     Seconds,
+    StudyFile,
     Unit,
     Verbose,
     Version,
     WorkPicture,
-    Written,
 )
 from jaxkin.cli.errors import one_line_errors
 from jaxkin.cli.options import Options
@@ -77,11 +77,11 @@ def inspect(
     exact_only: ExactOnly = False,
     no_combine: PerContact = False,
     unit: Unit = None,
-    loops_file: Loops = None,
+    loops_file: LoopsFile = None,
     seconds: Seconds = None,
     png: Picture = None,
     page: Page = None,
-    study_file: Written = None,
+    study_file: StudyFile = None,
     verbose: Verbose = False,
 ) -> None:
     """Print what is found in an assembly: faces, contacts, joints, loops, mobility, and what was refused and why.
@@ -95,7 +95,7 @@ def inspect(
         if study_file:
             written.check_no_study(files)
         with progress(2) as step:
-            options = Options(fixed, rigid, ignore, (), no_combine, unit, exclude, exact_only, (), seconds, loops_file)
+            options = Options(fixed, rigid, ignore, exclude, exact_only, no_combine, unit, loops_file, seconds)
             study = run.read(files, options, step)
             run.find_contacts(study, step)
             contacts = study.contacts
@@ -137,7 +137,7 @@ def loops(
     drive: Drive = [],
     no_combine: PerContact = False,
     unit: Unit = None,
-    loops_file: Loops = None,
+    loops_file: LoopsFile = None,
     seconds: Seconds = None,
     png: Drawing = None,
 ) -> None:
@@ -148,9 +148,9 @@ def loops(
     with one_line_errors():
         from jaxkin.cli import report
 
-        options = Options(fixed, rigid, ignore, drive, no_combine, unit, exclude, exact_only, (), seconds, loops_file)
+        options = Options(fixed, rigid, ignore, exclude, exact_only, no_combine, unit, loops_file, seconds, drive)
         with progress(3) as step:
-            study = run.found(files, options, step)
+            study = run.find_joints(files, options, step)
         if png:
             from jaxkin._files import save_figure
 
@@ -171,7 +171,7 @@ def accuracy(
     drive: Drive = [],
     no_combine: PerContact = False,
     unit: Unit = None,
-    loops_file: Loops = None,
+    loops_file: LoopsFile = None,
     seconds: Seconds = None,
     png: WorkPicture = None,
 ) -> None:
@@ -180,9 +180,9 @@ def accuracy(
         from jaxkin.cli import report
         from jaxkin.effects.accuracy import combinations, work_precision
 
-        options = Options(fixed, rigid, ignore, drive, no_combine, unit, exclude, exact_only, (), seconds, loops_file)
+        options = Options(fixed, rigid, ignore, exclude, exact_only, no_combine, unit, loops_file, seconds, drive)
         with progress(3 + len(combinations())) as step:
-            study = run.found(files, options, step)
+            study = run.find_joints(files, options, step)
             work = work_precision(study.mechanism, study.drive, step=step)
         if png:
             work.plot(png)
@@ -204,7 +204,7 @@ def sweep(
     drive: Drive = [],
     no_combine: PerContact = False,
     unit: Unit = None,
-    loops_file: Loops = None,
+    loops_file: LoopsFile = None,
     seconds: Seconds = None,
     effects: Effects = [],
 ) -> None:
@@ -216,6 +216,6 @@ def sweep(
     """
     with one_line_errors():
         options = Options(
-            fixed, rigid, ignore, drive, no_combine, unit, exclude, exact_only, effects, seconds, loops_file
+            fixed, rigid, ignore, exclude, exact_only, no_combine, unit, loops_file, seconds, drive, effects
         )
         run.sweep(files, out, options)

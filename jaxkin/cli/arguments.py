@@ -26,7 +26,7 @@ Unit = Annotated[
         "--unit", metavar="UNIT", help="Unit of lengths of STL, OBJ and PLY files, which have none: mm, m, ..."
     ),
 ]
-Loops = Annotated[
+LoopsFile = Annotated[
     Path | None,
     typer.Option(
         "--loops",
@@ -125,7 +125,7 @@ def _ending(suffix: str, what: str) -> Callable[[Path | None], Path | None]:
     return check
 
 
-Written = Annotated[
+StudyFile = Annotated[
     Path | None,
     typer.Option(
         "--study",

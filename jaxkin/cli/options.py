@@ -18,19 +18,19 @@ _BETWEEN = re.compile(r"\s-\s|,(?!\s*\d)")
 
 @dataclass(frozen=True)
 class Options:
-    """The options as they were written."""
+    """The options as they were written: first those that commands share, in their order there."""
 
     fixed: Sequence[str] = ()
     rigid: Sequence[str] = ()
     ignore: Sequence[str] = ()
-    drive: Sequence[str] = ()
-    no_combine: bool = False
-    unit: str | None = None
     exclude: Sequence[str] = ()
     exact_only: bool = False
-    effects: Sequence[str] = ()
+    no_combine: bool = False
+    unit: str | None = None
+    loops_file: Path | None = None
     seconds: float | None = None
-    loops: Path | None = None
+    drive: Sequence[str] = ()
+    effects: Sequence[str] = ()
 
     def on(self, files: Sequence[Path], progress: Callable[[int, int], None] | None = None) -> Study:
         """Make the study of a file, or of files of one part each, with the options; `progress` is that of `load`."""
@@ -60,8 +60,8 @@ class Options:
         if len(files) == 1 and studies:
             if self.unit:
                 raise ValueError(f'--unit {self.unit}: write unit = "{self.unit}" in {files[0].name}')
-            if self.loops:
-                raise ValueError(f"--loops {self.loops}: write the key loops beside geometry in {files[0].name}")
+            if self.loops_file:
+                raise ValueError(f"--loops {self.loops_file}: write the key loops beside geometry in {files[0].name}")
             return load_study(files[0], seconds=self.seconds, progress=progress)
         if studies:
             raise ValueError(
@@ -69,7 +69,7 @@ class Options:
                 '{ crank = "crank.stl", ... } in it'
             )
         if len(files) == 1:
-            given = load(files[0], unit=self.unit, seconds=self.seconds, loops=self.loops, progress=progress)
+            given = load(files[0], unit=self.unit, seconds=self.seconds, loops=self.loops_file, progress=progress)
             if given.saved is not None:
                 return Study(files[0].name, None, saved=given.saved)
             return Study(files[0].name, given)
@@ -85,7 +85,7 @@ class Options:
                 f"{one} and {other}: two parts would be called {one.stem!r}; rename a file, or name "
                 "the parts in a study"
             )
-        assembly = load(parts, unit=self.unit, seconds=self.seconds, loops=self.loops, progress=progress)
+        assembly = load(parts, unit=self.unit, seconds=self.seconds, loops=self.loops_file, progress=progress)
         return Study(assembly.source, assembly)
 
 
@@ -112,11 +112,11 @@ def parse_drives(options: Iterable[str]) -> dict[str, Range]:
 
 def parse_effects(options: Iterable[str]) -> list[str]:
     """Read the names of effects, commas between them; ValueError for others."""
-    from jaxkin.io.named_effects import known
+    from jaxkin.io.named_effects import check_effects
 
     names = [name.strip() for option in options for name in option.split(",")]
     try:
-        known(names)
+        check_effects(names)
     except ValueError as error:
         raise ValueError(f"--effects {','.join(options)}: {error}") from None
     return names

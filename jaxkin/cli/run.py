@@ -44,7 +44,7 @@ def sweep(files: Sequence[Path], out: Path, options: Options) -> None:
     failed: dict[str, str] = {}
 
     with progress(3) as step:
-        study = found(files, options, step)
+        study = find_joints(files, options, step)
     if len(next(iter(study.drive.values()))) > LONG:
         if study.effects:
             raise ValueError(
@@ -126,9 +126,10 @@ def find_contacts(study: Study, step: Steps) -> None:
         study.assembly.contacts(**study.tolerance, progress=step.within)
 
 
-def found(files: Sequence[Path], options: Options, step: Steps) -> Study:
-    """Make the study that files and options make, its mechanism found: three steps of the progress."""
-    study = checked(read(files, options, step))
+def find_joints(files: Sequence[Path], options: Options, step: Steps) -> Study:
+    """Make the study that files and options make, and find its contacts and joints: three steps of the progress."""
+    study = read(files, options, step)
+    check_fixed(study)
     find_contacts(study, step)
     step("finding joints")
     _ = study.mechanism
@@ -151,9 +152,8 @@ def proposed(study: Study, assembly: Assembly) -> tuple[Study, tuple[Proposal, .
     return replace(study, fixed=found[0].fixed), found
 
 
-def checked(study: Study) -> Study:
-    """Return the study, if a part is fixed."""
+def check_fixed(study: Study) -> None:
+    """Refuse a study in which no part is fixed: ValueError."""
     if study.assembly and not study.held:
         names = ", ".join(study.assembly.names)
         raise ValueError(f"no part is fixed: give --fixed PART, once or more; the parts are {names}")
-    return study

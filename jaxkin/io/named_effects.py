@@ -145,7 +145,7 @@ EFFECTS = {
 """The effects by name."""
 
 
-def known(names: Iterable[str]) -> None:
+def check_effects(names: Iterable[str]) -> None:
     """Raise ValueError for a name that no effect has."""
     for name in names:
         if name not in EFFECTS:
@@ -157,7 +157,7 @@ def compute(motion: Motion, asked: Settings) -> dict[str, Result]:
 
     Raises ValueError, with the name of the effect, for settings that it does not have and for what it lacks.
     """
-    known(asked)
+    check_effects(asked)
     results: dict[str, Result] = {}
     for name, settings in asked.items():
         effect = EFFECTS[name]

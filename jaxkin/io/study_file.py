@@ -14,7 +14,7 @@ from pydantic import BaseModel, BeforeValidator, Field, PlainValidator, Validati
 from jaxkin._files import check_file
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.units import METRES
-from jaxkin.io.named_effects import Settings, known
+from jaxkin.io.named_effects import Settings, check_effects
 from jaxkin.io.ranges import FORM, MAX_POSES, RADIANS, Range, read_range
 from jaxkin.io.study_couplings import CouplingTable
 from jaxkin.io.study_errors import messages
@@ -250,7 +250,7 @@ class StudyFile(BaseModel):
     def asked_effects(self, file: str) -> Settings:
         """Find the effects that are not off, with their settings; ValueError for names of no effect."""
         try:
-            known(self.effects)
+            check_effects(self.effects)
         except ValueError as error:
             raise ValueError(f"{file}: effects: {error}") from None
         return {name: {} if said is True else said for name, said in self.effects.items() if said is not False}
