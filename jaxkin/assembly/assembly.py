@@ -15,10 +15,10 @@ from jaxkin.assembly.exported import Exported
 from jaxkin.assembly.from_export import from_export
 from jaxkin.assembly.ignored_contacts import check_ignored, ignored_in_full
 from jaxkin.assembly.inference.measured import Measured
-from jaxkin.assembly.inferred import inferred
 from jaxkin.assembly.left_loose import left_loose
 from jaxkin.assembly.proposals import Proposal, proposals
-from jaxkin.assembly.to_mechanism import Said, check_said, from_words, without_rigid_joints
+from jaxkin.assembly.to_mechanism import MechanismOptions, check_options, make_mechanism, without_rigid_joints
+from jaxkin.assembly.with_inferences import with_inferences
 from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.contacts.detect import find_contacts
 from jaxkin.contacts.tolerance import ContactTolerance
@@ -137,7 +137,7 @@ class Assembly:
                 infer=infer,
                 clearance=clearance,
             )
-        said = Said(
+        options = MechanismOptions(
             _in_full(fixed, self.parts, "fixed"),
             _groups(rigid, self.parts),
             ignored_in_full(ignore, self.parts),
@@ -147,16 +147,16 @@ class Assembly:
             clearance,
         )
         if infer and contacts is None and self.exported is not None:
-            return from_export(self, self.exported, said)
+            return from_export(self, self.exported, options)
         contacts = self.contacts() if contacts is None else contacts
-        check_said(self.names, said)
+        check_options(self.names, options)
         if not (infer and combine):
-            check_ignored(contacts, said.ignore)
-        plain = not (rigid or ignore or said.joints) and combine and infer and align is None and clearance is None
+            check_ignored(contacts, options.ignore)
+        plain = not (rigid or ignore or options.joints) and combine and infer and align is None and clearance is None
         made = self._made if plain and contacts is self._found.get(_DEFAULT_TOLERANCES) else {}
-        if said.fixed not in made:
-            made[said.fixed] = (inferred if infer and combine else from_words)(self, contacts, said)
-        return made[said.fixed]
+        if options.fixed not in made:
+            made[options.fixed] = (with_inferences if infer and combine else make_mechanism)(self, contacts, options)
+        return made[options.fixed]
 
     def of_joints(
         self,
@@ -175,16 +175,16 @@ class Assembly:
         """
         left = {*_in_full(exclude, self.parts, "exclude")}
         groups = [[part for part in group if part not in left] for group in _groups(rigid, self.parts)]
-        said = Said(
+        options = MechanismOptions(
             [part for part in _in_full(fixed, self.parts, "fixed") if part not in left],
             [group for group in groups if len(group) > 1],
             joints=[each for each in check_joints(joints) if left.isdisjoint(each.parts)],
             align=align,
         )
         kept = self.without(left)
-        check_said(kept.names, said)
-        said, notes = without_rigid_joints(kept.names, said)
-        made = from_words(kept, Contacts(()), said, left_loose(kept.names, said))
+        check_options(kept.names, options)
+        options, notes = without_rigid_joints(kept.names, options)
+        made = make_mechanism(kept, Contacts(()), options, left_loose(kept.names, options))
         return replace(made, history=(*notes, *made.history))
 
     def proposals(

@@ -16,7 +16,7 @@ from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.untied import tied_to_nothing
 from jaxkin.assembly.subassemblies import rigid_subassemblies
-from jaxkin.assembly.to_mechanism import Said, check_said, from_words
+from jaxkin.assembly.to_mechanism import MechanismOptions, check_options, make_mechanism
 from jaxkin.contacts.contact import Contacts
 from jaxkin.geometry.part import size
 from jaxkin.joints.combine import lower_pair
@@ -38,8 +38,8 @@ DIGITS = 1e-6
 write nine decimals of a metre, which is 1e-7 of a part of ten millimetres, and directions that are rounded alike."""
 
 
-def from_export(assembly: Assembly, exported: Exported, said: Said) -> Mechanism:
-    """Make the mechanism that an export says, with what the user says before it; contacts are not looked at.
+def from_export(assembly: Assembly, exported: Exported, options: MechanismOptions) -> Mechanism:
+    """Make the mechanism that an export says, but where the user's `options` say else; contacts are not looked at.
 
     All joints and mates between two bodies become the one lower pair that they amount to together; where there is none,
     each becomes a joint of its own. Parts that nothing of the export ties move with the sub-assembly that they are in,
@@ -48,32 +48,32 @@ def from_export(assembly: Assembly, exported: Exported, said: Said) -> Mechanism
 
     Raises ValueError where neither fixes a part, for what is about contacts, and for names that do not exist.
     """
-    for word, given in (("combine=False", not said.combine), ("clearance=", said.clearance is not None)):
+    for word, given in (("combine=False", not options.combine), ("clearance=", options.clearance is not None)):
         if given:
             raise ValueError(
                 f"{assembly.source}: {word} is about contacts, and its {exported.system} says what the joints "
                 "are: leave it out, or write infer=False for the joints that contacts make"
             )
-    said = said._replace(fixed=said.fixed or exported.fixed)
-    if not said.fixed:
+    options = options._replace(fixed=options.fixed or exported.fixed)
+    if not options.fixed:
         raise ValueError(
             f"{assembly.source}: its {exported.system} holds no part; say which parts are fixed, as in "
             f"fixed=[{assembly.names[0]!r}]"
         )
-    check_said(assembly.names, said)
-    check_ignored((), said.ignore, [frozenset(each.parts) for each in exported.constraints])
+    check_options(assembly.names, options)
+    check_ignored((), options.ignore, [frozenset(each.parts) for each in exported.constraints])
     notes = [*exported.notes]
     noise = Noise(DIGITS, DIGITS * size(assembly.parts))
-    groups = _groups(exported, said)
-    constraints = [each for each in exported.constraints if not _replaced(each, said)]
-    while locked := _locked(assembly, said, groups, constraints, noise):
+    groups = _groups(exported, options)
+    constraints = [each for each in exported.constraints if not _replaced(each, options)]
+    while locked := _locked(assembly, options, groups, constraints, noise):
         groups += locked
-    joints = _joints(assembly, said, groups, constraints, noise, notes, exported.motors)
-    groups += rigid_subassemblies(assembly.parts, said, groups, [each.joint.parts for each in joints if each.joint])
-    known = Known(assembly._measured, Contacts(()), said.fixed, said.rigid, said.joints)
+    joints = _joints(assembly, options, groups, constraints, noise, notes, exported.motors)
+    groups += rigid_subassemblies(assembly.parts, options, groups, [each.joint.parts for each in joints if each.joint])
+    known = Known(assembly._measured, Contacts(()), options.fixed, options.rigid, options.joints)
     known.take([*groups, *joints])
     known.take(tied_to_nothing(known))
-    mechanism = from_words(assembly, Contacts(()), said, known.found, exported.system)
+    mechanism = make_mechanism(assembly, Contacts(()), options, known.found, exported.system)
     owner = {name: name if name in mechanism.joints else name.rpartition(".")[0] for name in exported.motors}
     motors = tuple(name for name, joint in owner.items() if joint in mechanism.joints)
     driven = {part for name in motors for part in mechanism.joints[owner[name]].parts}
@@ -118,27 +118,27 @@ def _independent(linkage: Linkage, motors: tuple[str, ...], notes: list[str]) ->
     return tuple(kept)
 
 
-def _groups(exported: Exported, said: Said) -> list[Inference]:
+def _groups(exported: Exported, options: MechanismOptions) -> list[Inference]:
     """List the rigid groups of the export, and its welds."""
     groups = [
         Inference(group, Evidence(EvidenceKind.EXPORT, (), "a rigid group of the CAD system"))
         for group in exported.rigid
     ]
-    welds = [each for each in exported.constraints if each.kind is JointKind.FIXED and not _replaced(each, said)]
+    welds = [each for each in exported.constraints if each.kind is JointKind.FIXED and not _replaced(each, options)]
     return groups + [Inference(each.parts, Evidence(EvidenceKind.EXPORT, (), each.text)) for each in welds]
 
 
-def _replaced(constraint: Constraint, said: Said) -> bool:
+def _replaced(constraint: Constraint, options: MechanismOptions) -> bool:
     """Tell whether the user says something else of the two parts: a joint by hand, or that they are to be ignored."""
     parts = {*constraint.parts}
-    return any(parts == {*given.parts} for given in said.joints) or any(parts == {*pair} for pair in said.ignored)
+    return any(parts == {*given.parts} for given in options.joints) or any(parts == {*pair} for pair in options.ignored)
 
 
 def _between(
-    assembly: Assembly, said: Said, groups: Sequence[Inference], constraints: Sequence[Constraint]
+    assembly: Assembly, options: MechanismOptions, groups: Sequence[Inference], constraints: Sequence[Constraint]
 ) -> list[list[Constraint]]:
     """Collect the constraints of each two bodies; those inside a body are left out."""
-    body = bodies(assembly.names, said.fixed, [*said.rigid, *(each.parts for each in groups)])
+    body = bodies(assembly.names, options.fixed, [*options.rigid, *(each.parts for each in groups)])
     found: dict[frozenset[str], list[Constraint]] = defaultdict(list)
     for each in constraints:
         owners = frozenset(body[part] for part in each.parts)
@@ -148,11 +148,15 @@ def _between(
 
 
 def _locked(
-    assembly: Assembly, said: Said, groups: Sequence[Inference], constraints: Sequence[Constraint], noise: Noise
+    assembly: Assembly,
+    options: MechanismOptions,
+    groups: Sequence[Inference],
+    constraints: Sequence[Constraint],
+    noise: Noise,
 ) -> list[Inference]:
     """Find pairs of bodies that several constraints leave no freedom together."""
     result = []
-    for several in _between(assembly, said, groups, constraints):
+    for several in _between(assembly, options, groups, constraints):
         pair = lower_pair([each.chain for each in several], noise) if len(several) > 1 else None
         if pair is not None and pair.kind is JointKind.FIXED:
             evidence = Evidence(EvidenceKind.EXPORT, (), f"{_told(several)} leave no freedom")
@@ -162,7 +166,7 @@ def _locked(
 
 def _joints(
     assembly: Assembly,
-    said: Said,
+    options: MechanismOptions,
     groups: Sequence[Inference],
     constraints: Sequence[Constraint],
     noise: Noise,
@@ -170,10 +174,10 @@ def _joints(
     motors: Sequence[str],
 ) -> list[Inference]:
     """Make the joints between bodies; what is no joint, and axes that do not meet, are added to the notes."""
-    taken = {given.name for given in said.joints}
+    taken = {given.name for given in options.joints}
     driven = {*motors, *(name.rpartition(".")[0] for name in motors)}
     result = []
-    for several in _between(assembly, said, groups, constraints):
+    for several in _between(assembly, options, groups, constraints):
         whole = len(several) > 1 and not any(each.limits or each.pitch or each.name in driven for each in several)
         for name, found in _joints_of_two(several, noise, notes, whole):
             unique = free_name(name, taken)

@@ -8,14 +8,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from jaxkin.assembly.inference.inference import Inference
-from jaxkin.assembly.to_mechanism import Said
+from jaxkin.assembly.to_mechanism import MechanismOptions
 from jaxkin.geometry.part import Part
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.topology.bodies import bodies
 
 
 def rigid_subassemblies(
-    parts: Sequence[Part], said: Said, groups: Sequence[Inference], joined: Sequence[tuple[str, str]]
+    parts: Sequence[Part], options: MechanismOptions, groups: Sequence[Inference], joined: Sequence[tuple[str, str]]
 ) -> list[Inference]:
     """Find the parts that move with the sub-assembly that they are in, the innermost sub-assemblies first.
 
@@ -29,13 +29,13 @@ def rigid_subassemblies(
     paths = {part.path[:depth] for part in parts for depth in range(1, len(part.path) + 1)}
     for path in sorted(paths, key=lambda path: (-len(path), path)):
         inside = [part.name for part in parts if part.path[: len(path)] == path]
-        body = bodies(names, said.fixed, [*said.rigid, *(each.parts for each in (*groups, *result))])
+        body = bodies(names, options.fixed, [*options.rigid, *(each.parts for each in (*groups, *result))])
         owners = {body[part] for part in inside}
-        pairs = [{body[one], body[other]} for one, other in [*joined, *(given.parts for given in said.joints)]]
+        pairs = [{body[one], body[other]} for one, other in [*joined, *(given.parts for given in options.joints)]]
         if len(owners) == 1 or any(len(pair) == 2 and pair <= owners for pair in pairs):
             continue
         ties = {owner: sum(len(pair) == 2 and owner in pair for pair in pairs) for owner in owners}
-        anchored = [owner for owner in owners if ties[owner] > 1 or owner == body[said.fixed[0]]]
+        anchored = [owner for owner in owners if ties[owner] > 1 or owner == body[options.fixed[0]]]
         if len(anchored) > 1:
             continue
         first = next(part for part in inside if not anchored or body[part] == anchored[0])

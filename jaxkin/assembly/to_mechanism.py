@@ -1,4 +1,4 @@
-"""The way from the contacts of solids to a mechanism: bodies, what the user adds or leaves out, joints, notes."""
+"""From the contacts of solids to a mechanism: bodies, what the user adds or leaves out, joints, notes."""
 
 from __future__ import annotations
 
@@ -43,8 +43,8 @@ _LISTED = 8
 """Names, or near misses, that a message lists at most."""
 
 
-class Begun(NamedTuple):
-    """A mechanism without its contacts."""
+class _WithoutContacts(NamedTuple):
+    """What a mechanism is made of beside its contacts."""
 
     joints: tuple[Joint, ...]
     """Those by hand, and the ties of rigid groups."""
@@ -54,8 +54,8 @@ class Begun(NamedTuple):
     solids: tuple[Part, ...]
 
 
-class Said(NamedTuple):
-    """What a user says of an assembly, with all names in full: see `Assembly.mechanism`."""
+class MechanismOptions(NamedTuple):
+    """What a user asks of the mechanism of an assembly, with all names in full: arguments of `Assembly.mechanism`."""
 
     fixed: Sequence[str]
     rigid: Sequence[Sequence[str]] = ()
@@ -71,44 +71,44 @@ class Said(NamedTuple):
         return [pair for entry in self.ignore for pair in entry]
 
 
-def check_said(names: Sequence[str], said: Said) -> None:
-    """Refuse words that name no parts, or that are no such groups: ValueError."""
-    check_names(names, [(given.name, *given.parts) for given in said.joints], said.fixed)
-    bodies(names, said.fixed, said.rigid)
-    clearance = said.clearance
+def check_options(names: Sequence[str], options: MechanismOptions) -> None:
+    """Refuse options that name no parts, or groups that are none: ValueError."""
+    check_names(names, [(given.name, *given.parts) for given in options.joints], options.fixed)
+    bodies(names, options.fixed, options.rigid)
+    clearance = options.clearance
     if clearance is not None and (isinstance(clearance, bool | str) or not 0 <= clearance < np.inf):
         raise ValueError(f"clearance must be a radial length in the unit of the file, such as 0.2, got {clearance!r}")
 
 
-def without_rigid_joints(names: Sequence[str], said: Said) -> tuple[Said, list[str]]:
+def without_rigid_joints(names: Sequence[str], options: MechanismOptions) -> tuple[MechanismOptions, list[str]]:
     """Leave out the joints by hand whose two parts are one body by `rigid` or `fixed`, and tell each in a line.
 
     For joints that were written down as they were found: a body that somebody adds to these is what is meant.
     """
-    body = bodies(names, said.fixed, said.rigid)
-    inside = [each for each in said.joints if body[each.parts[0]] == body[each.parts[1]]]
-    held, notes = {body[part] for part in said.fixed}, []
+    body = bodies(names, options.fixed, options.rigid)
+    inside = [each for each in options.joints if body[each.parts[0]] == body[each.parts[1]]]
+    held, notes = {body[part] for part in options.fixed}, []
     for each in inside:
         one, other = each.parts
         why = "fixed and rigid say" if body[one] in held else "rigid says"
         notes.append(f"joint {each.name!r} is left out, since {why} that {one!r} and {other!r} are one body")
-    return said._replace(joints=[each for each in said.joints if each not in inside]), notes
+    return options._replace(joints=[each for each in options.joints if each not in inside]), notes
 
 
-def from_words(
+def make_mechanism(
     assembly: Assembly,
     contacts: Sequence[Contact],
-    said: Said,
+    options: MechanismOptions,
     inferences: Sequence[Inference] = (),
     system: str = "CAD system",
 ) -> Mechanism:
-    """Make the mechanism of contacts, the user's words and some inferences; `system` has exported some of these."""
+    """Make the mechanism of contacts, inferences and what the user asks for; `system` has exported some inferences."""
     groups = [each.parts for each in inferences if each.joint is None]
-    joints = (*said.joints, *(each.joint for each in inferences if each.joint is not None))
-    names, combine, align = assembly.names, said.combine, said.align
-    body = bodies(names, said.fixed, [*said.rigid, *groups])
-    owners = {body[part] for part in said.fixed}
-    fixed = (*said.fixed, *(part for part in names if body[part] in owners and part not in said.fixed))
+    joints = (*options.joints, *(each.joint for each in inferences if each.joint is not None))
+    names, combine, align = assembly.names, options.combine, options.align
+    body = bodies(names, options.fixed, [*options.rigid, *groups])
+    owners = {body[part] for part in options.fixed}
+    fixed = (*options.fixed, *(part for part in names if body[part] in owners and part not in options.fixed))
     for given in joints:
         if body[given.parts[0]] == body[given.parts[1]]:
             raise ValueError(
@@ -117,26 +117,26 @@ def from_words(
                 "of its parts out of rigid or fixed"
             )
 
-    used = without(contacts, said.ignored)
+    used = without(contacts, options.ignored)
     ties = _ties(assembly, body, fixed, inferences, {given.name for given in joints})
     _refuse_loose(assembly, contacts, fixed, [*(c.parts for c in used), *(given.parts for given in (*joints, *ties))])
     moving = [contact for contact in used if body[contact.parts[0]] != body[contact.parts[1]]]
     by_hand = {_pair(given.parts, body): given.name for given in joints}
-    own = {_pair(given.parts, body): given.name for given in said.joints}
+    own = {_pair(given.parts, body): given.name for given in options.joints}
     replaced = [contact for contact in moving if _pair(contact.parts, body) in by_hand]
     kept = [contact for contact in moving if _pair(contact.parts, body) not in by_hand]
-    begun = Begun((*joints, *ties), names, tuple(fixed), assembly.unit, assembly.parts)
-    mechanism = _joined(begun, kept, body, noise_of(assembly.parts, moving), combine, align)
-    told = (*_left_out(len(contacts) - len(used), replaced, own, body), *told_of(inferences, system))
-    told = (*told, *_told(contacts, mechanism))
+    base = _WithoutContacts((*joints, *ties), names, tuple(fixed), assembly.unit, assembly.parts)
+    mechanism = _with_contacts(base, kept, body, noise_of(assembly.parts, moving), combine, align)
+    told = (*_left_out_notes(len(contacts) - len(used), replaced, own, body), *inference_notes(inferences, system))
+    told = (*told, *_detection_notes(contacts, mechanism))
     bonds = (
-        *(Bond(tuple(group)) for group in said.rigid),
+        *(Bond(tuple(group)) for group in options.rigid),
         *(Bond(each.parts, each.evidence) for each in inferences if each.joint is None),
     )
     return replace(mechanism, history=(*told, *mechanism.history), bonds=bonds)
 
 
-def told_of(inferences: Sequence[Inference], system: str = "CAD system") -> list[str]:
+def inference_notes(inferences: Sequence[Inference], system: str = "CAD system") -> list[str]:
     """Tell inferences one by one, but what the exporting system said itself as counts: nothing in it is in doubt."""
     said = Counter(
         str(each.joint.kind) if each.joint else "weld or rigid group"
@@ -162,13 +162,13 @@ def without_contacts(mechanism: Mechanism, left_out: Collection[Contact | str]) 
     by_hand = [each for each in mechanism.all_joints if each.name not in mechanism.contacts]
     body = bodies(mechanism.parts, mechanism.fixed, [each.parts for each in by_hand if each.kind == JointKind.FIXED])
     given = tuple(each for each in by_hand if each.name not in left_out)
-    begun = Begun(given, mechanism.parts, mechanism.fixed, mechanism.unit, mechanism.solids)
+    base = _WithoutContacts(given, mechanism.parts, mechanism.fixed, mechanism.unit, mechanism.solids)
     contacts = [each for each in every if each not in left_out]
-    return _joined(begun, contacts, body, noise_of(mechanism.solids, every), combine=True, align=None)
+    return _with_contacts(base, contacts, body, noise_of(mechanism.solids, every), combine=True, align=None)
 
 
-def _joined(
-    begun: Begun,
+def _with_contacts(
+    base: _WithoutContacts,
     contacts: Sequence[Contact],
     body: Mapping[str, str],
     noise: Noise,
@@ -176,16 +176,16 @@ def _joined(
     align: float | int | None,
 ) -> Mechanism:
     """Join parts by some joints and by contacts, all free of noise, and leave at rest what only spins."""
-    parts, fixed = begun.parts, begun.fixed
-    found = joints_from_contacts(contacts, parts, combine, noise, body, begun.joints)
+    parts, fixed = base.parts, base.fixed
+    found = joints_from_contacts(contacts, parts, combine, noise, body, base.joints)
     structured = structure(parts, [(each.name, *each.parts) for each in found.joints], fixed)
-    notes = (*found.notes, *_aligned(found, begun.unit, noise.size))
+    notes = (*found.notes, *_alignment_notes(found, base.unit, noise.size))
     linkage = Linkage.of(found.joints, structured)
-    mechanism = Mechanism(linkage, begun.unit, begun.solids, notes, contacts=found.contacts)
+    mechanism = Mechanism(linkage, base.unit, base.solids, notes, contacts=found.contacts)
     if combine:
         mechanism = left_at_rest(mechanism)
     most = max(SIX_DIGITS, noise.angle) if align is None else asked_noise(align)
-    linkage, alignment = aligned(mechanism.linkage, most, begun.unit)
+    linkage, alignment = aligned(mechanism.linkage, most, base.unit)
     return with_spinning(replace(mechanism, linkage=linkage, alignment=alignment))
 
 
@@ -218,8 +218,8 @@ def _ties(
     ]
 
 
-def _left_out(ignored: int, replaced: Sequence[Contact], by_hand: Mapping, body: Mapping[str, str]) -> list[str]:
-    """Tell what the user's words did to the contacts."""
+def _left_out_notes(ignored: int, replaced: Sequence[Contact], by_hand: Mapping, body: Mapping[str, str]) -> list[str]:
+    """Tell which contacts were left out for what the user asks for."""
     notes = [f"{counted(ignored, 'contact')} ignored, as was asked for"] if ignored else []
     for pair, name in by_hand.items():
         states = [f"({contact.state})" for contact in replaced if _pair(contact.parts, body) == pair]
@@ -229,7 +229,7 @@ def _left_out(ignored: int, replaced: Sequence[Contact], by_hand: Mapping, body:
     return notes
 
 
-def _aligned(found: FoundJoints, unit: str, size: float) -> list[str]:
+def _alignment_notes(found: FoundJoints, unit: str, size: float) -> list[str]:
     """Tell by how much joints were aligned, if that is more than rounding in an assembly of some size; without
     contacts, where the size is 0, than rounding of one unit of length."""
     if found.angle < ROUNDED and found.length < ROUNDED * (size or 1.0):
@@ -240,7 +240,7 @@ def _aligned(found: FoundJoints, unit: str, size: float) -> list[str]:
     ]
 
 
-def _told(contacts: Sequence[Contact], mechanism: Mechanism) -> tuple[str, ...]:
+def _detection_notes(contacts: Sequence[Contact], mechanism: Mechanism) -> tuple[str, ...]:
     """Tell near misses that a mechanism does not account for, and refusals of the detection, where the contacts are a
     whole result of it."""
     if not isinstance(contacts, Contacts):
@@ -263,7 +263,7 @@ def _refuse_loose(
         problem = f"{_listed(alone)} touch{'es' if len(alone) == 1 else ''} no other part"
     else:
         problem = f"no chain of contacts ties {_listed(loose)} to the fixed {_listed(fixed)}"
-    found = told_by(assembly, contacts)
+    found = detection_of(assembly, contacts)
     misses = [miss for miss in found.near_misses if set(miss.parts) & set(alone or loose)]
     said = [note for note in found.notes if any(name in note for name in alone or loose)]
     nearly = [f"  {miss}" for miss in [*misses, *said][:_LISTED]] or ["  and nothing there is nearly in contact"]
@@ -272,7 +272,7 @@ def _refuse_loose(
     raise ValueError("\n".join([f"{assembly.source}: {problem}; {advice}", *nearly]))
 
 
-def told_by(assembly: Assembly, contacts: Sequence[Contact]) -> Contacts:
+def detection_of(assembly: Assembly, contacts: Sequence[Contact]) -> Contacts:
     """Find the detection that some contacts are from: what it nearly found depends on the tolerances that it was
     given."""
     if isinstance(contacts, Contacts):

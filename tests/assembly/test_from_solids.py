@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import jaxkin as jk
-from jaxkin.assembly.to_mechanism import _aligned
+from jaxkin.assembly.to_mechanism import _alignment_notes
 from jaxkin.examples import EXAMPLES, path
 from jaxkin.joints.from_contacts import FoundJoints
 
@@ -182,5 +182,5 @@ def test_alignment_by_rounding_of_the_size_of_an_assembly_is_not_told(size):
     """Coordinates of an assembly of a metre, in mm, are rounded by 1e-13: lengths of a few of these are no noise."""
     for share, told in ((1e-14, False), (1e-9, True)):
         found = FoundJoints((), {}, 1e-16, share * size, ())
-        assert bool(_aligned(found, "mm", size)) == told
-    assert not _aligned(FoundJoints((), {}, 0.0, 0.0, ()), "mm", 0.0)
+        assert bool(_alignment_notes(found, "mm", size)) == told
+    assert not _alignment_notes(FoundJoints((), {}, 0.0, 0.0, ()), "mm", 0.0)

@@ -16,7 +16,7 @@ from jaxkin.assembly.inference.springs import DrawnSpring, springs
 from jaxkin.assembly.lids import under_lids
 from jaxkin.assembly.resting import leaves_all_moving, resting
 from jaxkin.assembly.seats import seats_of, useful_freedoms
-from jaxkin.assembly.to_mechanism import Said, from_words, told_by
+from jaxkin.assembly.to_mechanism import MechanismOptions, detection_of, make_mechanism
 from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.joints.evidence import EvidenceKind
 from jaxkin.joints.kinds import JointKind
@@ -40,22 +40,24 @@ _TRIED = 12
 """Inferences that are left out in turn, the weakest first, where nothing can move with all of them."""
 
 
-def inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said) -> Mechanism:
+def with_inferences(assembly: Assembly, contacts: Sequence[Contact], options: MechanismOptions) -> Mechanism:
     """Make the mechanism with what solids imply beside their exact contacts.
 
     Tubes that may be springs are taken for such where the parts at their ends move on each other then; otherwise a
     screw clamps these, and the tube is a spacer.
     """
-    words = [*said.rigid, *said.ignored, *(each.parts for each in said.joints)]
-    by_hand = {*said.fixed, *(part for group in words for part in group)}
-    tubes = springs(assembly._measured, contacts, said.fixed, by_hand)
-    made = _inferred(assembly, contacts, said, tubes)
+    words = [*options.rigid, *options.ignored, *(each.parts for each in options.joints)]
+    by_hand = {*options.fixed, *(part for group in words for part in group)}
+    tubes = springs(assembly._measured, contacts, options.fixed, by_hand)
+    made = _with_springs(assembly, contacts, options, tubes)
     body = body_of_parts(made.bodies)
     pushing = [each for each in tubes if body.get(each.seat, each.seat) != body.get(each.pushed, each.pushed)]
-    return made if pushing == tubes else _inferred(assembly, contacts, said, pushing)
+    return made if pushing == tubes else _with_springs(assembly, contacts, options, pushing)
 
 
-def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said, tubes: Sequence[DrawnSpring]) -> Mechanism:
+def _with_springs(
+    assembly: Assembly, contacts: Sequence[Contact], options: MechanismOptions, tubes: Sequence[DrawnSpring]
+) -> Mechanism:
     """Make the mechanism with what solids imply, and some tubes as springs.
 
     What would stop slides that exact contacts allow is taken only where these slides are of use otherwise, so that the
@@ -64,11 +66,11 @@ def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said, tubes
     moves still does then. Where the inferences lock it, the weakest one without which it moves is dropped, and that is
     said.
     """
-    source = told_by(assembly, contacts)
-    used = Contacts(without(contacts, said.ignored), source.near_misses, source.notes)
-    asked = {frozenset(pair) for pair in said.ignored if {*pair} <= {*assembly.names}}
+    source = detection_of(assembly, contacts)
+    used = Contacts(without(contacts, options.ignored), source.near_misses, source.notes)
+    asked = {frozenset(pair) for pair in options.ignored if {*pair} <= {*assembly.names}}
     ignored = asked | {frozenset(contact.parts) for contact in contacts if contact not in used.contacts}
-    check_ignored(contacts, said.ignore, asked)
+    check_ignored(contacts, options.ignore, asked)
     detected, heeded = contacts, set[Pair]()
     if tubes:
         ignored |= {frozenset((each.part, other)) for each in tubes for other in assembly.names if other != each.seat}
@@ -83,14 +85,16 @@ def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said, tubes
     def made(seats: Sequence[Inference], apart: Sequence[Pair] = ()) -> tuple[Mechanism, list[Inference], int]:
         """Make the mechanism with its inferences, with the pairs of parts in `apart` never one body; and count what is
         of use before slides are stopped. Keeps what was taken for fasteners in `fasteners`."""
-        rigid = [*said.rigid, *(each.parts for each in seats)]
+        rigid = [*options.rigid, *(each.parts for each in seats)]
         loose = {each.part for each in tubes}
-        implied = infer(assembly._measured, used, said.fixed, rigid, said.joints, ignored, said.clearance, loose, apart)
+        implied = infer(
+            assembly._measured, used, options.fixed, rigid, options.joints, ignored, options.clearance, loose, apart
+        )
         fasteners.update(implied.fasteners)
         heeded.update(implied.taken_back)
         found = [*seats, *implied.found]
-        plain = from_words(assembly, contacts, said, found)
-        return *_stopped(assembly, contacts, said, plain, found, implied.stops), _not_idle(plain)
+        plain = make_mechanism(assembly, contacts, options, found)
+        return *_stopped(assembly, contacts, options, plain, found, implied.stops), _not_idle(plain)
 
     seats = [each.inference for each in tubes]
     mechanism, found, plainly = made(seats)
@@ -121,10 +125,10 @@ def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said, tubes
         if useful_freedoms(other) and leaves_all_moving(mechanism, other, held):
             seats, mechanism, found = [*seats, *held], other, more
     moves = useful_freedoms(mechanism) or _has_free_slide(mechanism)
-    check_ignored(detected, said.ignore, heeded)
+    check_ignored(detected, options.ignore, heeded)
     told = _counted(mechanism, found)
     if found and not moves:
-        unlocked, dropped = _unlocked(assembly, contacts, said, found, mechanism, fasteners)
+        unlocked, dropped = _unlocked(assembly, contacts, options, found, mechanism, fasteners)
         told = unlocked or told
         if dropped is not None and dropped.joint is None:
             # what is a body no longer may be a joint: a lever on a pin with play
@@ -134,7 +138,7 @@ def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said, tubes
                 told = _without(dropped, _counted(other, more))
     taken_back = [
         f"nothing is inferred between {one!r} and {other!r}, as was asked for"
-        for one, other in said.ignored
+        for one, other in options.ignored
         if frozenset((one, other)) in heeded
     ]
     return replace(told, history=(*told_caps(told), *taken_back, *told.history))
@@ -153,7 +157,7 @@ def _not_idle(mechanism: Mechanism) -> int:
 def _stopped(
     assembly: Assembly,
     contacts: Sequence[Contact],
-    said: Said,
+    options: MechanismOptions,
     mechanism: Mechanism,
     found: list[Inference],
     levels: Sequence[Sequence[Inference]],
@@ -167,18 +171,18 @@ def _stopped(
         stops = [each for level in levels[:count] for each in level]
         names = {each.joint.name for each in stops if each.joint}  # they take the places of joints that slide
         rest = [each for each in found if not (each.joint and each.joint.name in names)]
-        more = _without_inner(assembly, said, [*rest, *stops])
-        other = from_words(assembly, contacts, said, more)
+        more = _without_inner(assembly, options, [*rest, *stops])
+        other = make_mechanism(assembly, contacts, options, more)
         fewer, spins = useful_freedoms(other), other.mobility().spins
         if 0 < fewer < useful or (fewer == useful and fewer + spins > 0 and spins < turning):
             return other, more
     return mechanism, found
 
 
-def _without_inner(assembly: Assembly, said: Said, found: Sequence[Inference]) -> list[Inference]:
+def _without_inner(assembly: Assembly, options: MechanismOptions, found: Sequence[Inference]) -> list[Inference]:
     """Leave out joints of parts that are one body by other inferences."""
     groups = [each.parts for each in found if each.joint is None]
-    body = bodies(assembly.names, said.fixed, [*said.rigid, *groups])
+    body = bodies(assembly.names, options.fixed, [*options.rigid, *groups])
     return [each for each in found if each.joint is None or len({body[part] for part in each.parts}) > 1]
 
 
@@ -204,7 +208,7 @@ def _without(dropped: Inference, mechanism: Mechanism) -> Mechanism:
 def _unlocked(
     assembly: Assembly,
     contacts: Sequence[Contact],
-    said: Said,
+    options: MechanismOptions,
     found: Sequence[Inference],
     locked: Mechanism,
     fasteners: Collection[str],
@@ -222,9 +226,9 @@ def _unlocked(
     droppable = [each for each in reversed(found) if each.evidence.kind not in _KEPT]
     for dropping in droppable[:_TRIED]:
         fewer = [each for each in found if each is not dropping]
-        if _loose(assembly, contacts, said, fewer):
+        if _loose(assembly, contacts, options, fewer):
             continue
-        other = _counted(from_words(assembly, contacts, said, fewer), fewer)
+        other = _counted(make_mechanism(assembly, contacts, options, fewer), fewer)
         if fewer and _frees_fasteners_only(other, dropping, fasteners):
             continue
         other = _without(dropping, other)
@@ -251,15 +255,17 @@ def _frees_fasteners_only(mechanism: Mechanism, dropped: Inference, fasteners: C
     return dropped.evidence.kind is EvidenceKind.FASTENER and len(others) < 2
 
 
-def _loose(assembly: Assembly, contacts: Sequence[Contact], said: Said, found: Sequence[Inference]) -> bool:
+def _loose(
+    assembly: Assembly, contacts: Sequence[Contact], options: MechanismOptions, found: Sequence[Inference]
+) -> bool:
     """Tell whether some part would hang on nothing."""
-    touching = [contact.parts for contact in without(contacts, said.ignored)]
+    touching = [contact.parts for contact in without(contacts, options.ignored)]
     ties = [
         *touching,
-        *said.rigid,
-        *(joint.parts for joint in said.joints),
+        *options.rigid,
+        *(joint.parts for joint in options.joints),
         *(each.parts for each in found),
-        said.fixed,
+        options.fixed,
     ]
     return len(connected(assembly.names, [(tie[0], part) for tie in ties for part in tie[1:]])) > 1
 
