@@ -13,9 +13,9 @@ from jaxkin._arguments import check_mechanism
 from jaxkin._files import whole
 from jaxkin._grouped import grouped, kind_of
 from jaxkin._names import counted
+from jaxkin.assembly.dropped_inference import TOLD
 from jaxkin.assembly.inference.inference import INFERRED
 from jaxkin.assembly.wheels import wheels_last
-from jaxkin.assembly.with_inferences import TOLD
 from jaxkin.contacts.reason import advises_tolerance
 from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.geometry.pose import Pose, frame
