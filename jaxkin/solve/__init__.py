@@ -27,8 +27,8 @@ function is called by the nearest one above it that is indented less. What happe
             `range/damped_poses.py` `correct_damped`        the damped steps (12) of poses left open, from neighbours
 16.         `status.py` `classify`                          decide the status of each pose from its residual norm
 17.       `range/interpolation.py` `interpolate`            correct (15) a few poses of a long range, and interpolate
-          `range/other_ways.py`                             of several inputs, try what the branch does not reach,
-            by `continuation/reach.py` `reach`              a way of its own from the assembled pose to each target (6)
+          `range/other_paths.py`                            of several inputs, try what the branch does not reach,
+            by `continuation/reach.py` `reach`              a path of its own from the assembled pose to each target (6)
 18.     `range/solve_range.py` `displacements`              attach derivatives (`range/implicit_derivative.py`), then
 19.       `closure/joint_coordinates.py`                    compute the displacements of all joints (Table 2)
 

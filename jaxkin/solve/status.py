@@ -14,7 +14,7 @@ their values in any number of ways, of which a sweep tries four at most, so that
 `classify` gives a pose the status of the first row that holds. The status is then changed in these cases, in turn:
 
 - STALLED, whatever the residual: the trace of the branch ran out of steps before it got to the input of the pose
-  (`range.polish`). Of several inputs, such a pose is then tried by other ways (`range.other_ways`).
+  (`range.polish`). Of several inputs, such a pose is then tried along other paths (`range.other_paths`).
 - STALLED in place of CLOSED or JUMPED: correctors improve no pose below the rounding that is left of its residual, and
   that is above the tolerance (`range.solve_range.find_poses`).
 - STALLED in place of CLOSED or JUMPED: the pose is that of a formula, and whether the motion leads to it is in doubt

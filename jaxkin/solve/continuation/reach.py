@@ -1,4 +1,4 @@
-"""Move the inputs from the assembled pose to targets, each along a way of its own."""
+"""Move the inputs from the assembled pose to targets, each along a path of its own."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from jaxkin.solve.status import Status
 from jaxkin.solve.system.state import State
 
 STAYS = 4 * BEYOND_LIMIT_STEP
-"""Distance, at the end of a way, over which inputs stay where they are while a pose is STALLED: four times the steps of
-the damped corrector, which has few for each step of the continuation."""
+"""Distance, at the end of a path, over which inputs stay where they are while a pose is STALLED: four times the steps
+of the damped corrector, which has few for each step of the continuation."""
 
 
 def reach(
-    problem: ClosureProblem, targets: Float[Array, "driven ways"], bends: Float[Array, "driven ways"]
-) -> tuple[State, Int[Array, " ways"], Float[Array, " ways"]]:
+    problem: ClosureProblem, targets: Float[Array, "driven paths"], bends: Float[Array, "driven paths"]
+) -> tuple[State, Int[Array, " paths"], Float[Array, " paths"]]:
     """Move the inputs from the assembled pose to each target along the parabola with control point `bends`.
 
     The parabola is straight where `bends` is half the target. Inputs are in radians and characteristic lengths. Returns
@@ -32,13 +32,13 @@ def reach(
     distance = jnp.max(jnp.abs(bends), axis=0, initial=0.0) + jnp.max(jnp.abs(targets - bends), axis=0, initial=0.0)
     whole = jnp.where(distance > 0, distance, 1.0)
 
-    def path(at: Float[Array, " ways"]) -> tuple[Array, Array]:
+    def path(at: Float[Array, " paths"]) -> tuple[Array, Array]:
         share = at / whole
         inputs = 2 * share * (1 - share) * bends + share**2 * targets
         direction = 2 * ((1 - 2 * share) * bends + share * targets) / whole
         return jnp.where(at >= distance, targets, inputs), jnp.where(at > distance, 0.0, direction)
 
-    def end(fronts: Fronts) -> Float[Array, " ways"]:
+    def end(fronts: Fronts) -> Float[Array, " paths"]:
         stays = (fronts.status == Status.STALLED.value) & (fronts.at < distance + STAYS)
         return jnp.where(fronts.at < distance, distance, jnp.where(stays, distance + STAYS, fronts.at))
 

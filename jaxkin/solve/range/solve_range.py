@@ -4,7 +4,7 @@ For a single input, the branch is traced once from the assembled pose to both en
 are safe (`continuation.branch`). Every pose is then predicted between two samples by a cubic with exact slopes, and
 corrected; this is done for all poses at once, in any order (`polish`). Of long ranges most poses are interpolated
 (`interpolation`). For several inputs, the branch is traced along a smooth curve through the poses, in the order in
-which they are given; poses that are not reached along the curve are tried by other ways (`other_ways`).
+which they are given; poses that are not reached along the curve are tried along others (`other_paths`).
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from jaxkin.solve.options import CONTINUATION, SolverOptions
 from jaxkin.solve.range.groups import group_size, in_groups
 from jaxkin.solve.range.implicit_derivative import attach_derivative
 from jaxkin.solve.range.interpolation import SHARP_ROUNDINGS, interpolate
-from jaxkin.solve.range.other_ways import try_other_ways
+from jaxkin.solve.range.other_paths import try_other_paths
 from jaxkin.solve.range.polish import correct_poses
 from jaxkin.solve.range.poses import MAX_CORRECTION, Poses
 from jaxkin.solve.reference_methods.minimise import minimise_each
@@ -185,7 +185,7 @@ def _of_several_inputs(system: LoopSystem, options: SolverOptions, asked: _Range
         found = in_groups(partial(_of_neighbours, problem, samples, one_by_one), (at, inputs), CHORD_BATCH)
     if follow_limits is not False:  # known when the program is made: else it holds no second continuation
         failed = any_in_lockstep(found.status != Status.CLOSED.value) & follow_limits
-        found = lax.cond(failed, lambda: try_other_ways(problem, at, inputs, found), lambda: found)
+        found = lax.cond(failed, lambda: try_other_paths(problem, at, inputs, found), lambda: found)
     return _stalled_unless(kept, found)
 
 

@@ -1,10 +1,11 @@
-"""Try poses of several inputs that a curve through all poses did not reach by other ways from the assembled pose.
+"""Try poses of several inputs that a curve through all poses did not reach along other paths of the inputs.
 
-The first way is a straight line. Poses that close behind an unreachable interval are then tried along two parabolas, on
-which one half of the inputs goes ahead of the other: a pose that none of them reaches may still be on the branch.
+Each leads from the assembled pose to one pose. The first path is a straight line. Poses that close behind an
+unreachable interval are then tried along two parabolas, on which one half of the inputs goes ahead of the other: a pose
+that none of them reaches may still be on the branch.
 
-A way is followed by a continuation of its own. One that meets a limit takes a hundred steps, and so do all that are
-followed beside it: ways are followed in small groups, and as few as tell what the other poses are. Where none leads to
+A path is followed by a continuation of its own. One that meets a limit takes a hundred steps, and so do all that are
+followed beside it: paths are followed in small groups, and as few as tell what the other poses are. Where none leads to
 two poses that are no farther apart than `CELL`, and all states between them are close to each other and of one status,
 none is tried to the poses between.
 """
@@ -28,36 +29,36 @@ from jaxkin.solve.range.poses import MAX_CORRECTION, Poses
 from jaxkin.solve.status import Status
 from jaxkin.solve.system.state import State, difference
 
-WAYS = 16
-"""Number of ways that are followed together on CPUs: beside one that meets a limit, more would wait for it."""
+PATHS = 16
+"""Number of paths that are followed together on CPUs: beside one that meets a limit, more would wait for it."""
 CELL = BEYOND_LIMIT_STEP
 """Largest distance along the curve, radians or characteristic lengths, between two poses that are tried."""
 
 
 class _Tried(NamedTuple):
-    """What ways have told so far."""
+    """What the paths followed so far have told."""
 
     poses: Poses
     tried: Bool[Array, " poses"]
     reached: Bool[Array, " poses"]
 
 
-def try_other_ways(
+def try_other_paths(
     problem: ClosureProblem,
     at: Float[Array, " poses"],
     inputs: Float[Array, "driven poses"],
     found: Poses,
 ) -> Poses:
-    """Replace poses that are not CLOSED by those to which other ways lead from the assembled pose.
+    """Replace poses that are not CLOSED by those to which other paths lead from the assembled pose.
 
     `at` are the distances of the poses along the curve, which grow; `inputs` are in radians and characteristic lengths.
     """
     leads = (jnp.arange(inputs.shape[0]) < inputs.shape[0] // 2)[:, None]
 
-    def followed(way: Int[Array, ""], found: Poses) -> Poses:
+    def followed(kind: Int[Array, ""], found: Poses) -> Poses:
         failed = found.status != Status.CLOSED.value
-        failed &= (way == 0) | (found.status == Status.JUMPED.value)
-        ahead = jnp.where(way == 0, 0.5, jnp.where(leads, way == 1, way == 2))
+        failed &= (kind == 0) | (found.status == Status.JUMPED.value)
+        ahead = jnp.where(kind == 0, 0.5, jnp.where(leads, kind == 1, kind == 2))
         return _follow(problem, at, inputs, ahead * inputs, found, failed)
 
     return lax.fori_loop(0, 3, followed, found)
@@ -73,7 +74,7 @@ def _follow(
 ) -> Poses:
     """Replace `failed` poses by those to which the parabolas with control points `bends` lead."""
     poses = failed.shape[0]
-    ways = group_for_device(WAYS)
+    together = group_for_device(PATHS)
     number, run, cell = jnp.arange(poses), _runs(found), jnp.floor(at / (0.5 * CELL))
     parted = jnp.concatenate([jnp.ones(1, bool), (run[1:] != run[:-1])])
     ends = parted | jnp.roll(parted, -1)
@@ -90,7 +91,7 @@ def _follow(
     def step(now: _Tried) -> _Tried:
         open_poses = left(now)
         chosen = jnp.where(jnp.any(open_poses & first), open_poses & first, open_poses)
-        which = jnp.argsort(~chosen)[:ways]
+        which = jnp.argsort(~chosen)[:together]
         chosen, begun = chosen[which], jax.tree.map(lambda array: array[..., which], now.poses)
         ends = (jnp.where(chosen, given[:, which], 0.0) for given in (inputs, bends))
         other = Poses(*reach(problem, *ends))

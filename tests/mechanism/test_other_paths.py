@@ -1,4 +1,4 @@
-"""Several inputs that leave the reach of a five-bar and come back: other ways lead to what the curve does not."""
+"""Several inputs that leave the reach of a five-bar and come back: other paths lead to what the curve does not."""
 
 import numpy as np
 import pytest
