@@ -8,7 +8,7 @@ from pathlib import Path
 import cadquery as cq
 import numpy as np
 
-from jaxkin.geometry.pose import Pose
+from jaxkin.geometry.pose import Transform
 
 SLATE, CORAL, OCEAN, AMBER = "#AEB8C2", "#E4572E", "#2A7FB8", "#F0A830"
 
@@ -60,7 +60,7 @@ def meet(p: np.ndarray, r_p: float, q: np.ndarray, r_q: float) -> np.ndarray:
     return p + x * along + np.sqrt(r_p**2 - x**2) * np.cross([0, 0, 1], along)
 
 
-def assembly(name: str, placement: Pose, parts: dict[str, tuple[cq.Workplane, str, Pose]]) -> cq.Assembly:
+def assembly(name: str, placement: Transform, parts: dict[str, tuple[cq.Workplane, str, Transform]]) -> cq.Assembly:
     assembly = cq.Assembly(name=name)
     for part, (solid, color, pose) in parts.items():
         world = placement @ pose

@@ -18,7 +18,7 @@ import numpy as np
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.outline import roundness
 from jaxkin.geometry.part import Part
-from jaxkin.geometry.pose import Pose, frame
+from jaxkin.geometry.pose import Transform, frame
 from jaxkin.geometry.surfaces import Cylinder
 from jaxkin.joints.combine import LOWER_PAIRS
 from jaxkin.joints.from_contacts import forwards
@@ -48,7 +48,7 @@ class Spin:
     kind: JointKind
     movement: str
     """Key of the movement of the lower pair: revolute, cylindrical or planar."""
-    frame: Pose
+    frame: Transform
     """Frame of that pair, z along the axis of rotation."""
     carrier: str = ""
     """The neighbour that the part stays on: relative to the carrier it has this motion only."""

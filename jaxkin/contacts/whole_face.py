@@ -14,7 +14,7 @@ from jaxkin.contacts.extent import interval, outline
 from jaxkin.contacts.region import contact_region
 from jaxkin.contacts.states import ContactState
 from jaxkin.geometry.part import Face
-from jaxkin.geometry.pose import Pose, apply, perpendicular
+from jaxkin.geometry.pose import Transform, apply, perpendicular
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere
 
 _FLAT_FILL = 1e-9
@@ -25,7 +25,7 @@ _ROUND_FILL = 0.5
 a turn lack (pi / n)^2 / 6, which is a third of that ratio; the rest leaves room for chords of unequal length."""
 
 
-def share_region(state: ContactState, face1: Face, face2: Face, displacement: Pose, length: float) -> bool:
+def share_region(state: ContactState, face1: Face, face2: Face, displacement: Transform, length: float) -> bool:
     """Check whether two faces share the region of their contact, when face 2 is moved by a displacement.
 
     The surfaces touch there in the given state; `length` is what counts as touching. A region at the rim of a face

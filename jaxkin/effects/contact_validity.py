@@ -22,7 +22,7 @@ from jaxkin.contacts.separation import Displacements, Gaps
 from jaxkin.contacts.whole_face import is_whole, share_region
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.part import Face
-from jaxkin.geometry.pose import Pose, apply
+from jaxkin.geometry.pose import Transform, apply
 from jaxkin.geometry.triangle_distance import set_distance
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.screws import displacements
@@ -172,6 +172,6 @@ def _gaps(joint: Joint, contact: Contact, moved: Displacements, setting: FaceSet
     return gaps
 
 
-def _apart(faces: Sequence[tuple[Face, Face]], displacement: Pose, length: float) -> float:
+def _apart(faces: Sequence[tuple[Face, Face]], displacement: Transform, length: float) -> float:
     """Measure the least distance of the triangles of pairs of faces; at least what counts as not touching."""
     return max(length, min(set_distance(one.triangles, apply(displacement, two.triangles)) for one, two in faces))

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jaxkin.geometry.pose import Pose, Vector, rotation, unit
+from jaxkin.geometry.pose import Transform, Vector, rotation, unit
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class Example:
     """The origin of the drawing in the world."""
 
     @property
-    def placement(self) -> Pose:
+    def placement(self) -> Transform:
         """The pose of the drawing in the world: `apply(placement, point_of_the_drawing)` is where the file has it."""
         pose = np.eye(4)
         pose[:3, :3], pose[:3, 3] = rotation(unit(self.turn[0]), self.turn[1]), self.shift

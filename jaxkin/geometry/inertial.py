@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.geometry.pose import Pose, apply
+from jaxkin.geometry.pose import Transform, apply
 
 OPEN = 1e-6
 """Vector sum of the areas of a closed surface over their sum, up to which it counts as closed: rounding."""
@@ -25,7 +25,7 @@ class Inertial:
     inertia: Float[np.ndarray, "3 3"]
     """About the centre of mass, kg m^2."""
 
-    def moved(self, pose: Pose) -> Inertial:
+    def moved(self, pose: Transform) -> Inertial:
         """Displace by a pose (4, 4)."""
         turn = pose[:3, :3]
         return Inertial(self.mass, apply(pose, self.centre), turn @ self.inertia @ turn.T)

@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.inertial import Inertial
-from jaxkin.geometry.pose import Pose, apply
+from jaxkin.geometry.pose import Transform, apply
 from jaxkin.geometry.surfaces import Surface
 
 
@@ -101,7 +101,7 @@ class Part:
         return float(abs(np.einsum("ti,ti->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))) / 6)
 
 
-def moved(part: Part, pose: Pose) -> Part:
+def moved(part: Part, pose: Transform) -> Part:
     """Displace a part by a pose, (4, 4)."""
     faces = tuple(
         replace(face, surface=face.surface.moved(pose), triangles=apply(pose, face.triangles)) for face in part.faces

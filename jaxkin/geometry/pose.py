@@ -12,7 +12,7 @@ from jaxtyping import Float
 
 Vector = Float[np.ndarray, "3"]
 Points = Float[np.ndarray, "*batch 3"]
-Pose = Float[np.ndarray, "4 4"]
+Transform = Float[np.ndarray, "4 4"]
 """Rotation matrix and translation, the last row 0, 0, 0, 1: a pose or a displacement."""
 
 _IDENTITY = np.eye(4)
@@ -37,7 +37,7 @@ def perpendicular(direction: Vector) -> Vector:
     return unit(least - (least @ direction) * direction)
 
 
-def frame(origin: Vector, z: Vector, x: Vector | None = None) -> Pose:
+def frame(origin: Vector, z: Vector, x: Vector | None = None) -> Transform:
     """Make the pose of a right-handed frame with the given z axis; its x axis is `x` projected perpendicular to z."""
     z = unit(z)
     x = perpendicular(z) if x is None else unit(np.asarray(x, float) - (np.asarray(x, float) @ z) * z)
@@ -46,7 +46,7 @@ def frame(origin: Vector, z: Vector, x: Vector | None = None) -> Pose:
     return pose
 
 
-def inverse(pose: Pose) -> Pose:
+def inverse(pose: Transform) -> Transform:
     """Invert a rigid pose, by transposition of its rotation."""
     result, turn = _IDENTITY.copy(), pose[:3, :3].T
     result[:3, :3] = turn
@@ -66,7 +66,7 @@ def skew(vector: Vector) -> Float[np.ndarray, "3 3"]:
     return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
 
 
-def is_rigid(matrix: Pose) -> bool:
+def is_rigid(matrix: Transform) -> bool:
     """Check whether a 4x4 matrix is a right-handed rotation R with a translation, within `RIGID_TOLERANCE`.
 
     That is: all entries are finite, R^T R = I, det R = 1, and the last row is 0, 0, 0, 1.
@@ -82,12 +82,12 @@ def rotation(axis: Vector, angle: float) -> Float[np.ndarray, "3 3"]:
     return np.eye(3) + np.sin(angle) * turned + (1.0 - np.cos(angle)) * (turned @ turned)
 
 
-def apply(pose: Pose, points: Points) -> Points:
+def apply(pose: Transform, points: Points) -> Points:
     """Map points from the local coordinates of a pose to world coordinates, or move them by a displacement."""
     return points @ pose[:3, :3].T + pose[:3, 3]
 
 
-def turned_by(pose: Pose) -> float:
+def turned_by(pose: Transform) -> float:
     """Measure the angle of the rotation of a pose, radians, 0 to pi."""
     turn = pose[:3, :3]
     sine = np.linalg.norm([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])

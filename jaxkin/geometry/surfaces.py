@@ -13,7 +13,7 @@ from typing import ClassVar
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.geometry.pose import Points, Pose, Vector
+from jaxkin.geometry.pose import Points, Transform, Vector
 
 Distances = Float[np.ndarray, "*batch"] | np.floating
 """One number for each point; numpy gives a scalar for a single point."""
@@ -37,7 +37,7 @@ class Plane:
         """Find the outward normals at points of the surface."""
         return np.broadcast_to(self.normal, points.shape)
 
-    def moved(self, pose: Pose) -> Plane:
+    def moved(self, pose: Transform) -> Plane:
         """Displace the surface by a rigid 4x4 displacement in world coordinates."""
         return Plane(pose[:3, :3] @ self.point + pose[:3, 3], pose[:3, :3] @ self.normal)
 
@@ -67,7 +67,7 @@ class Cylinder:
         """Find the outward normals at points of the surface."""
         return self.side * _unit(_radial(points, self.point, self.axis))
 
-    def moved(self, pose: Pose) -> Cylinder:
+    def moved(self, pose: Transform) -> Cylinder:
         """Displace the surface by a rigid 4x4 displacement in world coordinates."""
         return replace(self, point=pose[:3, :3] @ self.point + pose[:3, 3], axis=pose[:3, :3] @ self.axis)
 
@@ -101,7 +101,7 @@ class Cone:
         radial = _unit(_radial(points, self.apex, self.axis))
         return self.side * (radial * np.cos(self.half_angle) - self.axis * np.sin(self.half_angle))
 
-    def moved(self, pose: Pose) -> Cone:
+    def moved(self, pose: Transform) -> Cone:
         """Displace the surface by a rigid 4x4 displacement in world coordinates."""
         return replace(self, apex=pose[:3, :3] @ self.apex + pose[:3, 3], axis=pose[:3, :3] @ self.axis)
 
@@ -128,7 +128,7 @@ class Sphere:
         """Find the outward normals at points of the surface."""
         return self.side * _unit(points - self.centre)
 
-    def moved(self, pose: Pose) -> Sphere:
+    def moved(self, pose: Transform) -> Sphere:
         """Displace the surface by a rigid 4x4 displacement in world coordinates."""
         return replace(self, centre=pose[:3, :3] @ self.centre + pose[:3, 3])
 

@@ -16,7 +16,7 @@ import numpy as np
 from jaxkin._files import check_file
 from jaxkin._names import nearest
 from jaxkin.geometry.inertial import Inertial
-from jaxkin.geometry.pose import Pose, is_rigid
+from jaxkin.geometry.pose import Transform, is_rigid
 from jaxkin.io.marker_joints import CHAINS, KINDS, Marker, MarkerJoints
 from jaxkin.io.marker_ties import GEAR, RACK, SCREW, TIES, Bodies, add_tie
 from jaxkin.io.robot_inertials import inertial
@@ -165,7 +165,7 @@ class _Reader:
             unit="",
         )
 
-    def _pose(self, node: Node) -> Pose:
+    def _pose(self, node: Node) -> Transform:
         where = f"{self.file}, line {node.number}: {node.text}"
         place = node.find("Position3D")
         point = numbers(node.said("Position3D"), 3, f"{where}: Position3D") if place else np.zeros(3)
@@ -188,7 +188,7 @@ class _Reader:
             return None
         return inertial(mass, self._pose(found), (*moments, 0.0, 0.0, 0.0), where, self.made.notes)
 
-    def _markers(self, node: Node, link: str, pose: Pose, path: str) -> None:
+    def _markers(self, node: Node, link: str, pose: Transform, path: str) -> None:
         for point in node.every("RefPoints"):
             for each in point.every("Markers"):
                 place = pose @ self._pose(point) @ self._pose(each)

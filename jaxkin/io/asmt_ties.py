@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from jaxkin.geometry.pose import Pose
+from jaxkin.geometry.pose import Transform
 from jaxkin.io.marker_ties import GEAR, PARALLEL_MARKERS, RACK, SCREW
 from jaxkin.io.robot_model import placed
 from jaxkin.joints.coupling import Coupling
@@ -30,7 +30,7 @@ class Tie(NamedTuple):
     """What the file says of a coupling."""
 
     kind: str
-    sides: tuple[tuple[str, Pose], tuple[str, Pose]]
+    sides: tuple[tuple[str, Transform], tuple[str, Transform]]
     """Of each marker its part, and its pose."""
     sizes: tuple[tuple[str, float], ...]
 
@@ -41,7 +41,7 @@ class _Moved(NamedTuple):
     part: str
     carrier: str
     sign: float
-    frame: Pose
+    frame: Transform
     factor: float
     turns: bool
 

@@ -17,7 +17,7 @@ from jaxkin._arguments import check_mechanism
 from jaxkin._files import whole
 from jaxkin._names import listed
 from jaxkin.geometry.inertial import Inertial
-from jaxkin.geometry.pose import Pose
+from jaxkin.geometry.pose import Transform
 from jaxkin.geometry.units import METRES
 from jaxkin.io.asmt import FIRST_LINES, LIMITS, MOTIONS, UNKNOWN_MASS
 from jaxkin.io.asmt_ties import tie
@@ -98,7 +98,7 @@ class _Written(NamedTuple):
 
     kind: str
     name: str
-    sides: tuple[tuple[str, Pose], tuple[str, Pose]]
+    sides: tuple[tuple[str, Transform], tuple[str, Transform]]
     """Of each marker its part, and its pose."""
     more: tuple[tuple[str, str], ...] = ()
 
@@ -198,7 +198,7 @@ class _Writer:
         """Write the assembly, in the order that its solver reads."""
         names = unique(each.name for each in self.joints)
         path = {each.name: f"/{self.name}/{name}" for each, name in zip(self.joints, names, strict=True)}
-        markers: dict[str, list[tuple[str, Pose]]] = {part: [] for part in (WORLD, *self.parts)}
+        markers: dict[str, list[tuple[str, Transform]]] = {part: [] for part in (WORLD, *self.parts)}
         joints = ""
         for each, name in zip(self.joints, names, strict=True):
             said = _node(4, "Name", name)
@@ -266,7 +266,7 @@ def _row(depth: int, numbers: Iterable[float]) -> str:
     return "\t" * depth + "\t".join(map(written, numbers)) + "\n"
 
 
-def _place(depth: int, pose: Pose) -> str:
+def _place(depth: int, pose: Transform) -> str:
     tabs = "\t" * depth
     rows = "".join(_row(depth + 1, row) for row in pose[:3, :3])
     return f"{tabs}Position3D\n{_row(depth + 1, pose[:3, 3])}{tabs}RotationMatrix\n{rows}"
@@ -276,7 +276,7 @@ def _at_rest(depth: int) -> str:
     return "".join(_node(depth, key, "0\t0\t0") for key in ("Velocity3D", "Omega3D"))
 
 
-def _markers(depth: int, markers: Sequence[tuple[str, Pose]]) -> str:
+def _markers(depth: int, markers: Sequence[tuple[str, Transform]]) -> str:
     """Write the points of reference of a part: one, with all its markers."""
     tabs = "\t" * depth
     said = "".join(

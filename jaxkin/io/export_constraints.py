@@ -8,7 +8,7 @@ import numpy as np
 
 from jaxkin.assembly.exported import Constraint
 from jaxkin.geometry.movements import MOVEMENTS
-from jaxkin.geometry.pose import Pose
+from jaxkin.geometry.pose import Transform
 from jaxkin.io.export_joints import FREE, joint_of_kind
 from jaxkin.io.names import cleaned
 from jaxkin.io.simscape import Export, ExportedJoint, ExportedMate
@@ -93,7 +93,7 @@ def _unknown(kind: str) -> str:
     return "it leaves all freedoms, and holds nothing" if free else "this kind is not known"
 
 
-def _apart(movement: str, base: Pose, follower: Pose) -> tuple[float, float]:
+def _apart(movement: str, base: Transform, follower: Transform) -> tuple[float, float]:
     """Measure distance and angle by which two frames of a joint differ in what its movement leaves in place."""
     feature, aligned = MOVEMENTS[movement].feature, MOVEMENTS[movement].aligned
     offset = follower[:3, 3] - base[:3, 3]
@@ -144,7 +144,7 @@ def _mate(each: ExportedMate, where: Places, metres: float, length: float, notes
     )
 
 
-def in_unit(transform: Pose, metres: float) -> Pose:
+def in_unit(transform: Transform, metres: float) -> Transform:
     """Convert a transform in metres to another unit."""
     result = transform.copy()
     result[:3, 3] /= metres

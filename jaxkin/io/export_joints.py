@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from jaxkin.geometry.pose import Pose
+from jaxkin.geometry.pose import Transform
 from jaxkin.joints import pairs
 from jaxkin.joints.combine import LOWER_PAIRS, Chain
 from jaxkin.joints.joint import Joint
@@ -18,7 +18,7 @@ FREE = ("6dof", "sixdof", "bushing")
 """Joints that hold nothing: all six freedoms, perhaps with springs, which exports do not say."""
 
 
-def joint_of_kind(kind: str, base: Pose, follower: Pose) -> tuple[JointKind, Chain] | None:
+def joint_of_kind(kind: str, base: Transform, follower: Transform) -> tuple[JointKind, Chain] | None:
     """Return the kind and the displacements of a joint between two frames; None for kinds that are not known.
 
     The axis of most kinds is the z axis of the frames. A universal joint turns about the x axis of the base and the y

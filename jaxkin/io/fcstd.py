@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from jaxkin.geometry.pose import Pose, unit
+from jaxkin.geometry.pose import Transform, unit
 from jaxkin.io.fcstd_document import Document, Item, Reference
 from jaxkin.io.marker_joints import Marker, MarkerJoints
 from jaxkin.io.marker_ties import GEAR, RACK, SCREW, SLIDES, TIES, Bodies, add_tie
@@ -155,7 +155,7 @@ class _Reader:
                 else:
                     yield item
 
-    def _chain(self, item: Item, sub: str = "") -> list[tuple[Item, Pose]]:
+    def _chain(self, item: Item, sub: str = "") -> list[tuple[Item, Transform]]:
         """List the objects from the outermost one to the one that a placement is relative to, with world poses.
 
         Raises ValueError for an object that is not there.
@@ -178,7 +178,7 @@ class _Reader:
             poses.append((each, pose))
         return poses
 
-    def _moving(self, chain: list[tuple[Item, Pose]]) -> str | None:
+    def _moving(self, chain: list[tuple[Item, Transform]]) -> str | None:
         """Find the part that moves as one with the last object of a chain; None outside of the assemblies."""
         inside = [number for number, (each, _) in enumerate(chain) if each.name in self.open]
         if not inside:

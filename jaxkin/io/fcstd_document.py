@@ -17,7 +17,7 @@ from zipfile import BadZipFile, ZipFile
 import numpy as np
 
 from jaxkin._files import check_file
-from jaxkin.geometry.pose import Pose
+from jaxkin.geometry.pose import Transform
 from jaxkin.io.robot_model import numbers, placed, quaternion
 from jaxkin.io.xml_tree import MOST_BYTES, parse_xml
 
@@ -104,7 +104,7 @@ class Item:
         # names of elements that follow edits begin with a semicolon, and may hold dots
         return Reference(link.get("file", ""), link.get("name") or link.get("value", ""), inner.partition(";")[0])
 
-    def place(self, key: str) -> Pose | None:
+    def place(self, key: str) -> Transform | None:
         """Read a placement; None where there is none."""
         found = self.properties[key].find("PropertyPlacement") if key in self.properties else None
         if found is None:
@@ -113,7 +113,7 @@ class Item:
         given = numbers(" ".join(found.get(each, "") for each in keys), 7, f"{self}: {key}")
         return placed(quaternion(given[3:], f"{self}: {key}"), given[:3])
 
-    def pose(self, depth: int = 0) -> Pose:
+    def pose(self, depth: int = 0) -> Transform:
         """Read its pose in what it is in. A link has one of its own, and that of its target where it keeps it, too."""
         own = self.place("LinkPlacement") if self.type in LINKS else None
         own = self.place("Placement") if own is None else own

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from jaxkin.geometry.inertial import NONE
-from jaxkin.geometry.pose import Pose, inverse, unit
+from jaxkin.geometry.pose import Transform, inverse, unit
 from jaxkin.io.robot_model import RobotJoint, RobotLink, along, placed
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.kinds import JointKind
@@ -61,15 +61,15 @@ class Marker(NamedTuple):
     """A frame on a part, in world coordinates of the pose in the file."""
 
     link: str
-    pose: Pose
+    pose: Transform
 
 
 class _Step(NamedTuple):
     """One joint of a chain, with its frames on the part before and on the part behind."""
 
     kind: JointKind
-    before: Pose
-    behind: Pose
+    before: Transform
+    behind: Transform
 
 
 @dataclass
@@ -136,7 +136,7 @@ class MarkerJoints:
         self.joints[joint.name] = replace(joint, limits=tuple(limits))
 
 
-def _nearest(kind: str, first: Pose, second: Pose) -> Pose:
+def _nearest(kind: str, first: Transform, second: Transform) -> Transform:
     """Turn the second marker by half a turn, where its axes are opposite to those of the first one."""
     if kind in TURNABLE:
         return second
@@ -145,7 +145,7 @@ def _nearest(kind: str, first: Pose, second: Pose) -> Pose:
     return second @ HALF_TURNS[1] if first[:3, 2] @ second[:3, 2] < 0 else second
 
 
-def _chain(kind: str, first: Pose, second: Pose, sizes: Mapping[str, float]) -> tuple[_Step, ...]:
+def _chain(kind: str, first: Transform, second: Transform, sizes: Mapping[str, float]) -> tuple[_Step, ...]:
     """List the joints that one joint is, from the first marker to the second."""
     point = second[:3, 3]
     there = placed(first[:3, :3], point)
@@ -187,7 +187,7 @@ def _chain(kind: str, first: Pose, second: Pose, sizes: Mapping[str, float]) -> 
     return _Step(JointKind.REVOLUTE, first, axis), _Step(JointKind.CYLINDRICAL, beside, second)
 
 
-def _slides(first: Pose, second: Pose, axes: np.ndarray) -> tuple[_Step, ...]:
+def _slides(first: Transform, second: Transform, axes: np.ndarray) -> tuple[_Step, ...]:
     """List slides along axes of the second frame, at its point; the first of them begins at the first frame."""
     turns = [placed(along(axis), np.zeros(3)) for axis in axes]
     return tuple(
@@ -196,7 +196,7 @@ def _slides(first: Pose, second: Pose, axes: np.ndarray) -> tuple[_Step, ...]:
     )
 
 
-def _tilted(frame: Pose, z: np.ndarray, angle: float) -> Pose:
+def _tilted(frame: Transform, z: np.ndarray, angle: float) -> Transform:
     """Make the frame at the same point whose z axis is at an angle to that of `frame`, as near to `z` as can be."""
     own = frame[:3, 2]
     across = _direction(z - (z @ own) * own, frame[:3, 0])

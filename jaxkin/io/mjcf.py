@@ -15,7 +15,7 @@ import numpy as np
 
 from jaxkin._names import listed
 from jaxkin.geometry.inertial import NONE, Inertial
-from jaxkin.geometry.pose import Pose, inverse
+from jaxkin.geometry.pose import Transform, inverse
 from jaxkin.io.mjcf_attach import attached
 from jaxkin.io.mjcf_keyframe import at_keyframe
 from jaxkin.io.mjcf_masses import body_masses
@@ -52,7 +52,7 @@ BODY = ("inertial", "joint", "freejoint", "geom", "site", "body", "frame", "came
 """Elements of a body that are read, or are not about motion."""
 
 
-Placed = tuple[Element, Pose, str | None]
+Placed = tuple[Element, Transform, str | None]
 """An element of a body, the place that it is given in, from there to the world in metres, and its class by default."""
 
 
@@ -60,7 +60,7 @@ Placed = tuple[Element, Pose, str | None]
 class Bodies:
     """What the bodies of a model are: gathered on the way through them, at MuJoCo's `qpos0`."""
 
-    poses: dict[str, Pose] = field(default_factory=lambda: {WORLD: np.eye(4)})
+    poses: dict[str, Transform] = field(default_factory=lambda: {WORLD: np.eye(4)})
     """From each body to the world, metres."""
     shapes: dict[str, list[Shape]] = field(default_factory=lambda: {WORLD: []})
     inertials: dict[str, Inertial] = field(default_factory=dict)
@@ -72,7 +72,7 @@ class Bodies:
     """Names of the joints in the order of `qpos`; "" for a free one."""
     keys: dict[str, dict[str, str]] = field(default_factory=dict)
     """Keyframes of attached models: by name, what they say of each of their joints."""
-    sites: dict[str, tuple[str, Pose]] = field(default_factory=dict)
+    sites: dict[str, tuple[str, Transform]] = field(default_factory=dict)
     """Bodies of the sites by name, and their places in the world."""
     held: list[str] = field(default_factory=list)
     """Bodies that are held at rest, since they are moved from outside."""
@@ -135,7 +135,7 @@ class _Reader:
         model, notes = at_keyframe(model, self.root, self.file, found.order, len(found.joints), found.keys)
         return replace(model, notes=(*model.notes, *notes))
 
-    def _own(self, element: Element, at: Pose, child_class: str | None) -> Iterator[Placed]:
+    def _own(self, element: Element, at: Transform, child_class: str | None) -> Iterator[Placed]:
         """Yield the elements of a body with the place in the world that they are given in, and the class that they have
         where they name none; those in frames have the place and the class of these."""
         self.found.notes += unknown_parts(element, BODY, f"{self.file}: {tag(element)}")
@@ -163,7 +163,7 @@ class _Reader:
                 said = self.defaults.said(each, child_class)
                 self.found.sites[each.get("name", "")] = (body, at @ self.compiler.pose(said, where))
 
-    def _body(self, element: Element, parent: str, at: Pose, child_class: str | None) -> None:
+    def _body(self, element: Element, parent: str, at: Transform, child_class: str | None) -> None:
         """Read a body, its joints to the one around it, and what is inside."""
         found = self.found
         name = element.get("name") or f"{parent}/body {len(found.poses)}"
@@ -195,7 +195,7 @@ class _Reader:
             self._chain(joints, parent, name, pose)
         self._inside(own, name)
 
-    def _chain(self, joints: Sequence[Placed], parent: str, body: str, pose: Pose) -> None:
+    def _chain(self, joints: Sequence[Placed], parent: str, body: str, pose: Transform) -> None:
         """Join a body to the one around it by its joints in turn; between two of them is a part without a solid."""
         found = self.found
         if not joints:
@@ -213,7 +213,9 @@ class _Reader:
                 found.keys.setdefault(key.get("name", ""), {})[name] = key.get("qpos", "")
             before = after
 
-    def _joint(self, each: Element, name: str, parts: tuple[str, str], at: Pose, child_class: str | None) -> RobotJoint:
+    def _joint(
+        self, each: Element, name: str, parts: tuple[str, str], at: Transform, child_class: str | None
+    ) -> RobotJoint:
         """Read a joint between two parts."""
         said, where = self.defaults.said(each, child_class), f"{self.file}: {tag(each)}"
         written = said.get("type", "hinge")

@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin._names import listed
-from jaxkin.geometry.pose import Pose, rotation
+from jaxkin.geometry.pose import Transform, rotation
 from jaxkin.io.robot_model import RobotJoint, RobotModel, placed, quaternion
 from jaxkin.io.robot_pose import posed
 from jaxkin.joints.kinds import JointKind
@@ -26,7 +26,7 @@ FREE = 7
 BALL = 4
 """Numbers of a ball in `qpos`: its quaternion."""
 
-Step = tuple[Pose, tuple[float, ...]]
+Step = tuple[Transform, tuple[float, ...]]
 """Displacement of a joint, and of its coordinates, as `posed` has them."""
 
 

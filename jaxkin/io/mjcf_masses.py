@@ -9,7 +9,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 
 from jaxkin.geometry.inertial import NONE, Inertial
-from jaxkin.geometry.pose import Pose
+from jaxkin.geometry.pose import Transform
 from jaxkin.io.mjcf_shapes import Shapes, group_of
 from jaxkin.io.robot_inertials import inertial
 from jaxkin.io.robot_model import Weighed, numbers, tag
@@ -23,7 +23,7 @@ OTHERWISE = ("shell", "convex")
 
 
 def body_masses(
-    own: Sequence[tuple[Element, Pose, str | None]], shapes: Shapes, where: str, notes: list[str]
+    own: Sequence[tuple[Element, Transform, str | None]], shapes: Shapes, where: str, notes: list[str]
 ) -> Inertial | tuple[Weighed, ...] | None:
     """Read what a body weighs, in its frame: its <inertial>; or the solids that weigh, of which one says how much.
 
@@ -62,7 +62,7 @@ def _said_mass(said: Mapping[str, str], where: str) -> float:
     return found
 
 
-def _said(found: Element, at: Pose, shapes: Shapes, where: str, notes: list[str]) -> Inertial | None:
+def _said(found: Element, at: Transform, shapes: Shapes, where: str, notes: list[str]) -> Inertial | None:
     """Read an <inertial> that is given in the frame `at` in the body."""
     mass = float(numbers(found.get("mass"), 1, where)[0])
     if (full := found.get("fullinertia")) is not None:

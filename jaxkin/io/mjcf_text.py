@@ -10,7 +10,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 
 from jaxkin._names import nearest
-from jaxkin.geometry.pose import Pose, rotation
+from jaxkin.geometry.pose import Transform, rotation
 from jaxkin.io.robot_model import along, direction, numbers, placed, quaternion, tag
 from jaxkin.io.xml_tree import read_xml
 
@@ -125,7 +125,7 @@ class Compiler:
         self.folder = self.said.get("meshdir", self.said.get("assetdir", ""))
         self.strip = self.said.get("strippath", "false") == "true"
 
-    def pose(self, said: Mapping[str, str], where: str) -> Pose:
+    def pose(self, said: Mapping[str, str], where: str) -> Transform:
         """Read the place of an element from its attributes, metres: one between two points is in the middle of them,
         and its z axis points to the first."""
         if "fromto" in said:

@@ -9,7 +9,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 
 from jaxkin._names import listed, nearest
-from jaxkin.geometry.pose import Pose
+from jaxkin.geometry.pose import Transform
 from jaxkin.io.mjcf_text import Compiler, Defaults
 from jaxkin.io.names import unique
 from jaxkin.io.robot_couplings import SINGLE
@@ -33,8 +33,8 @@ class Ties:
         root: Element,
         compiler: Compiler,
         defaults: Defaults,
-        poses: Mapping[str, Pose],
-        sites: Mapping[str, tuple[str, Pose]],
+        poses: Mapping[str, Transform],
+        sites: Mapping[str, tuple[str, Transform]],
     ) -> None:
         """Take the elements of a model; `poses` and `sites` are its bodies and sites in the world, metres."""
         self.file, self.root = file, root
@@ -151,7 +151,7 @@ class Ties:
             raise ValueError(f"{where}: unknown body {name!r}{nearest(name, self.poses)}")
         return name
 
-    def _site(self, name: str, where: str) -> tuple[str, Pose]:
+    def _site(self, name: str, where: str) -> tuple[str, Transform]:
         if name not in self.sites:
             raise ValueError(f"{where}: unknown site {name!r}{nearest(name, self.sites)}")
         return self.sites[name]

@@ -8,7 +8,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 
 from jaxkin.geometry.inertial import Inertial
-from jaxkin.geometry.pose import Pose
+from jaxkin.geometry.pose import Transform
 from jaxkin.io.robot_model import numbers
 from jaxkin.io.sdf_frames import is_true, read_pose
 
@@ -22,7 +22,7 @@ write 1e-20 in place of zero."""
 
 
 def inertial(
-    mass: float, place: Pose, six: Sequence[float] | np.ndarray, where: str, notes: list[str]
+    mass: float, place: Transform, six: Sequence[float] | np.ndarray, where: str, notes: list[str]
 ) -> Inertial | None:
     """Make the inertial of a link of the place of its centre and axes, and xx, yy, zz, xy, xz, yz of its inertia there.
 

@@ -31,11 +31,15 @@ YAML_SUFFIXES = (".yaml", ".yml")
 """Suffixes of files of loops."""
 
 
+LoopPair = tuple[str, str, JointKind]
+"""Two frames, by their links or joints, and the kind of the joint that holds them together."""
+
+
 class Loops(NamedTuple):
     """What the file of loops says."""
 
     name: str
-    pairs: tuple[tuple[str, str, JointKind], ...] = ()
+    pairs: tuple[LoopPair, ...] = ()
     motors: tuple[str, ...] = ()
     kinds: tuple[tuple[str, JointKind], ...] = ()
     notes: tuple[str, ...] = ()

@@ -13,7 +13,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 
 from jaxkin.geometry.inertial import Inertial
-from jaxkin.geometry.pose import Pose, rotation
+from jaxkin.geometry.pose import Transform, rotation
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import JointLimits
 from jaxkin.joints.kinds import JointKind
@@ -29,7 +29,7 @@ UNLIMITED = 1e9
 class Shape:
     """One solid of a link."""
 
-    pose: Pose
+    pose: Transform
     """From the frame of the solid to that of the link, metres."""
     kind: str
     """"box", "sphere", "cylinder", "capsule" (along z, about the origin), or "mesh"."""
@@ -40,7 +40,7 @@ class Shape:
     """Of a mesh, as the robot file names it."""
     corners: np.ndarray | None = None
     """Triangles (n, 3, 3) of a mesh that the robot file holds itself, metres before its scales."""
-    reference: Pose | None = None
+    reference: Transform | None = None
     """Of a mesh: the frame of the solid, in that of its file, before its scales; None where they are one."""
 
 
@@ -58,7 +58,7 @@ class RobotLink:
     """A rigid link at the zero of the file."""
 
     name: str
-    pose: Pose
+    pose: Transform
     """From the link to the world, metres."""
     shapes: tuple[Shape, ...] = ()
     """What is seen of it."""
@@ -77,10 +77,10 @@ class RobotJoint:
     name: str
     parts: tuple[str, str]
     kind: JointKind
-    frame_1: Pose
+    frame_1: Transform
     """On the first link, in the world at the zero of the file, metres; the axis is z. A universal joint turns in the
     first link about y, and the second link on it about x."""
-    frame_2: Pose
+    frame_2: Transform
     """On the second link."""
     text: str
     """What the file calls it, such as "<joint name='hip'>"."""
@@ -156,7 +156,7 @@ def direction(vector: np.ndarray, where: str) -> np.ndarray:
     return vector / np.linalg.norm(vector)
 
 
-def placed(turn: np.ndarray, point: Sequence[float] | np.ndarray) -> Pose:
+def placed(turn: np.ndarray, point: Sequence[float] | np.ndarray) -> Transform:
     """Make a pose of a rotation matrix (3, 3) and a point."""
     pose = np.eye(4)
     pose[:3, :3], pose[:3, 3] = turn, point

@@ -7,12 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from jaxkin.geometry.pose import Pose, inverse
+from jaxkin.geometry.pose import Transform, inverse
 from jaxkin.io.robot_model import RobotJoint, RobotModel, placed
 from jaxkin.joints.kinds import JointKind
 
 
-def posed(model: RobotModel, steps: Mapping[str, tuple[Pose, tuple[float, ...]]], tree: int) -> RobotModel:
+def posed(model: RobotModel, steps: Mapping[str, tuple[Transform, tuple[float, ...]]], tree: int) -> RobotModel:
     """Move the links of a robot by displacements of its joints.
 
     `steps` maps joints to the displacement (4, 4) of the second link in the frame of the joint, metres, and to that of
@@ -32,7 +32,7 @@ def posed(model: RobotModel, steps: Mapping[str, tuple[Pose, tuple[float, ...]]]
     return replace(model, links=links, joints=joints)
 
 
-def _moved(each: RobotJoint, places: Mapping[str, Pose], by: tuple[float, ...], in_tree: bool) -> RobotJoint:
+def _moved(each: RobotJoint, places: Mapping[str, Transform], by: tuple[float, ...], in_tree: bool) -> RobotJoint:
     """Move a joint along with its links; a joint of the tree has the same frame on both links again."""
     second = places[each.parts[1]] @ each.frame_2
     first = second if in_tree else places[each.parts[0]] @ each.frame_1

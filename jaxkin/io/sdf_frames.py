@@ -8,7 +8,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 
 from jaxkin._names import nearest
-from jaxkin.geometry.pose import Pose
+from jaxkin.geometry.pose import Transform
 from jaxkin.io.robot_model import WORLD, numbers, placed, quaternion, roll_pitch_yaw, tag
 
 MODEL = "__model__"
@@ -22,7 +22,7 @@ class Frame(NamedTuple):
     """A frame as it is written."""
 
     element: Element | None
-    pose: Pose
+    pose: Transform
     """In the frame that it is relative to."""
     relative_to: str
     attached_to: str
@@ -34,7 +34,7 @@ def is_true(text: str | None) -> bool:
     return (text or "").strip().lower() in ("1", "true")
 
 
-def read_pose(element: Element | None, where: str) -> Pose:
+def read_pose(element: Element | None, where: str) -> Transform:
     """Read the <pose> of an element, metres; the identity where there is none, or an empty one."""
     found = None if element is None else element.find("pose")
     if found is None or not (found.text or "").strip():
@@ -87,7 +87,7 @@ class Frames:
         inner = next(iter(self.inner), None)
         return "" if inner is None else f"{inner}{IN_ANOTHER}{self.inner[inner].canonical()}"
 
-    def in_model(self, name: str, seen: tuple[str, ...] = ()) -> Pose:
+    def in_model(self, name: str, seen: tuple[str, ...] = ()) -> Transform:
         """Compute the pose of a frame in that of the model; ValueError for unknown names, and for frames in a
         circle."""
         if name in (MODEL, "") or (name == WORLD and self.model.tag != "model"):
@@ -104,7 +104,7 @@ class Frames:
             return self.in_model(outer, seen) @ self.inner[outer].in_model(rest)
         raise self.unknown(name)
 
-    def placement(self) -> Pose:
+    def placement(self) -> Transform:
         """Compute the pose from the frame of the model to the frame that its pose places."""
         name = self.model.get("placement_frame")
         return np.linalg.inv(self.in_model(name)) if name else np.eye(4)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jaxkin.geometry.pose import Points, Pose, apply
+from jaxkin.geometry.pose import Points, Transform, apply
 from jaxkin.geometry.shells import open_loops, volume, wrong_side
 from jaxkin.geometry.weld import weld
 from jaxkin.io.step_glb import Instance
@@ -37,7 +37,7 @@ class Defect:
     damage: bool
     """Whether no sound file comes so."""
 
-    def note(self, pose: Pose) -> str:
+    def note(self, pose: Transform) -> str:
         """Tell the defect in words, the place in the world; `pose` is that of the mesh."""
         near = ", ".join(f"{x:.4g}" for x in apply(pose, self.place))
         return f"{self.what}, near ({near}): {self.remedy}"

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float, Int
 
-from jaxkin.geometry.pose import Pose
+from jaxkin.geometry.pose import Transform
 from jaxkin.io.names import cleaned, unique
 from jaxkin.io.step_placements import SINGLE, FilePlacements, Placement
 
@@ -69,7 +69,7 @@ class Instance:
     """False where triangles are missing: cascadio names the faces of the first colour of a mesh only."""
 
     @property
-    def pose(self) -> Pose:
+    def pose(self) -> Transform:
         """From the frame of the mesh to the world."""
         return reduce(np.matmul, (place.pose for place in self.places), np.eye(4))
 

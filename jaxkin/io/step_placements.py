@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial import KDTree
 
-from jaxkin.geometry.pose import Pose, inverse
+from jaxkin.geometry.pose import Transform, inverse
 from jaxkin.io.step_unit import units_of_shapes
 
 SINGLE = 2.0**-24
@@ -32,7 +32,7 @@ _REFERENCE = re.compile(r"#(\d+)|\$")
 class Placement(NamedTuple):
     """Where an assembly places what is in it."""
 
-    pose: Pose
+    pose: Transform
     rounding: float
     """By which its numbers may be off beside those of the file, relative."""
 
@@ -45,7 +45,7 @@ class FilePlacements:
         self.poses = np.unique(poses, axis=0)
         self.tree = KDTree(self.poses[:, :3].reshape(-1, 12)) if len(self.poses) else None
 
-    def rounded_to(self, matrix: Float[np.ndarray, "4 4"]) -> Pose | None:
+    def rounded_to(self, matrix: Float[np.ndarray, "4 4"]) -> Transform | None:
         """Find the placement that is `matrix` in single precision; None where none is, or several that differ."""
         if self.tree is None:
             return None
@@ -58,7 +58,7 @@ class FilePlacements:
         return found[0]
 
 
-def _placements(statements: Sequence[str], units: Iterable[float]) -> Iterator[Pose]:
+def _placements(statements: Sequence[str], units: Iterable[float]) -> Iterator[Transform]:
     """Compute each placement of one frame in another, in each unit of the file, and its inverse: which of both is meant
     differs by translator."""
     pairs = _pairs(statements)
@@ -87,7 +87,7 @@ def _pairs(statements: Sequence[str]) -> list[tuple[str, str]]:
     return pairs + [(origins[source], target) for source, target, *_ in mapped if source in origins]
 
 
-def _frames(statements: Sequence[str], wanted: set[str]) -> dict[str, Pose]:
+def _frames(statements: Sequence[str], wanted: set[str]) -> dict[str, Transform]:
     """Compute the frames of some numbers, in their own unit, as far as they are told whole."""
     named = _named(statements, ("AXIS2_PLACEMENT_3D",), wanted)
     axes = {number: rest for number, (_, rest) in named.items() if len(rest) == 3}

@@ -13,7 +13,7 @@ from jaxkin.geometry.fit import fit_surface, fit_torus, flipped, rounding
 from jaxkin.geometry.fit_together import Piece, fit_together
 from jaxkin.geometry.merge import merge_faces
 from jaxkin.geometry.part import Face, Part
-from jaxkin.geometry.pose import Points, Pose, apply, unit
+from jaxkin.geometry.pose import Points, Transform, apply, unit
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere, Surface
 from jaxkin.io.step_check import Defect, unsound
 from jaxkin.io.step_glb import Color, Mesh
@@ -55,7 +55,7 @@ class Solid:
     """Notes on faces that are so in damaged files only."""
     defects: tuple[Defect, ...]
 
-    def placed(self, name: str, pose: Pose, color: Color | None) -> tuple[Part, list[str]]:
+    def placed(self, name: str, pose: Transform, color: Color | None) -> tuple[Part, list[str]]:
         """Make the part at a pose, and those of its notes that tell of a damage."""
         faces = tuple(Face(face.name, face.surface.moved(pose), apply(pose, face.triangles)) for face in self.faces)
         notes = [*self.notes, *(defect.note(pose) for defect in self.defects if not defect.damage)]

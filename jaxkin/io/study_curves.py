@@ -11,7 +11,7 @@ import numpy as np
 
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.patches import Followed, Patch
-from jaxkin.geometry.pose import Pose
+from jaxkin.geometry.pose import Transform
 from jaxkin.joints.curve_joints import FOLLOWERS
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
@@ -24,7 +24,7 @@ def _curve(joint: Joint, number: int) -> Followed:
     return curve
 
 
-def axes_of(joint: Joint, number: int = 0) -> Pose:
+def axes_of(joint: Joint, number: int = 0) -> Transform:
     """Compute the axes in which the points of a curve or a surface are given, in the world as assembled."""
     curve = _curve(joint, number)
     if isinstance(curve, Patch):
@@ -60,7 +60,7 @@ def _beside(joint: Joint) -> float:
     return float(np.linalg.norm(frames[1, :3, 3] - frames[0, :3, 3]))
 
 
-def _on_part2(joint: Joint) -> Pose:
+def _on_part2(joint: Joint) -> Transform:
     """Find the axes of the second profile, or the frame of the follower."""
     if joint.kind is JointKind.CURVE_ON_CURVE:
         return axes_of(joint, 1)
@@ -73,7 +73,7 @@ def _direction2(joint: Joint) -> list[float] | None:
     return _on_part2(joint)[:3, 2].tolist() if _follower(joint) == FOLLOWERS[-1] else None
 
 
-CURVE_ARGUMENTS: dict[str, Callable[[Joint, Pose], object]] = {
+CURVE_ARGUMENTS: dict[str, Callable[[Joint, Transform], object]] = {
     "profile": lambda joint, _: np.asarray(_curve(joint, 0).points, float).tolist(),
     "surface": lambda joint, _: np.asarray(_curve(joint, 0).points, float).tolist(),
     "closed": lambda joint, _: _closed(_curve(joint, 0)),

@@ -18,7 +18,7 @@ from jaxkin.assembly.inference.inference import INFERRED
 from jaxkin.assembly.wheels import wheels_last
 from jaxkin.contacts.reason import advises_tolerance
 from jaxkin.geometry.movements import MOVEMENTS, is_length
-from jaxkin.geometry.pose import Pose, frame
+from jaxkin.geometry.pose import Transform, frame
 from jaxkin.io.study_bodies import Bodies
 from jaxkin.io.study_choices import NONE, Choices, find_choices
 from jaxkin.io.study_couplings import coupling_keys
@@ -182,14 +182,14 @@ def _keys(joint: Joint) -> tuple[str, dict[str, object]]:
     return "contact", keys | ({"region": "circle"} if region == "circle" else {})
 
 
-def _direction(joint: Joint, pose: Pose) -> list[float] | None:
+def _direction(joint: Joint, pose: Transform) -> list[float] | None:
     """Find the direction of a straight slot, or of x of a profile."""
     if joint.curves:
         return axes_of(joint)[:3, 0].tolist()
     return pose[:3, 2].tolist() if MOVEMENTS[joint.movements[0]].only_slides else None
 
 
-WRITTEN_ARGUMENTS: dict[str, Callable[[Joint, Pose], object]] = {
+WRITTEN_ARGUMENTS: dict[str, Callable[[Joint, Transform], object]] = {
     "point": lambda joint, _: (axes_of(joint) if joint.curves else _pin(joint))[:3, 3].tolist(),
     "axis": lambda joint, _: (axes_of(joint) if joint.curves else _pin(joint))[:3, 2].tolist(),
     "normal": lambda _, pose: pose[:3, 2].tolist(),
@@ -205,7 +205,7 @@ WRITTEN_ARGUMENTS: dict[str, Callable[[Joint, Pose], object]] = {
 where it was not given."""
 
 
-def _pin(joint: Joint) -> Pose:
+def _pin(joint: Joint) -> Transform:
     """Take the last frame of a joint: that of the pin in a slot, and the only one of most joints."""
     return np.asarray(joint.frames_1, float)[-1]
 

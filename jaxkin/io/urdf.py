@@ -9,10 +9,10 @@ import numpy as np
 
 from jaxkin._names import nearest
 from jaxkin.geometry.inertial import NONE, Inertial
-from jaxkin.geometry.pose import Pose
+from jaxkin.geometry.pose import Transform
 from jaxkin.io.robot_couplings import follower
 from jaxkin.io.robot_inertials import SIX, inertial
-from jaxkin.io.robot_loops import Loops, read_loops, unread_beside
+from jaxkin.io.robot_loops import LoopPair, Loops, read_loops, unread_beside
 from jaxkin.io.robot_model import (
     RobotJoint,
     RobotLink,
@@ -154,7 +154,7 @@ class _Reader:
             raise ValueError(f"{self.file}: its joints go in a circle, with {left.get('name')!r}, apart from the root")
         return order, roots[0]
 
-    def _origin(self, origin: Element | None, where: str) -> Pose:
+    def _origin(self, origin: Element | None, where: str) -> Transform:
         if origin is None:
             return np.eye(4)
         where = f"{self.file}: {where}: origin"
@@ -167,7 +167,7 @@ class _Reader:
             turn = roll_pitch_yaw(numbers(origin.get("rpy"), 3, where, (0, 0, 0)))
         return placed(turn, numbers(origin.get("xyz"), 3, where, (0, 0, 0)))
 
-    def _joint(self, each: Element, parts: tuple[str, str], pose: Pose) -> RobotJoint:
+    def _joint(self, each: Element, parts: tuple[str, str], pose: Transform) -> RobotJoint:
         name, said = each.get("name", ""), each.get("type", "")
         where = f"{self.file}: {tag(each)}"
         if said not in KINDS:
@@ -246,7 +246,7 @@ class _Reader:
             self.notes.append(f"{where}: {tag(solid)} is no solid that is known; left out")
         return None
 
-    def _loop(self, number: int, pair: tuple[str, str, JointKind], joints: dict, poses: dict[str, Pose]) -> RobotJoint:
+    def _loop(self, number: int, pair: LoopPair, joints: dict, poses: dict[str, Transform]) -> RobotJoint:
         """Make the joint that holds two frames together."""
         one, other, kind = pair
         links = [self._link_of(name, joints) for name in (one, other)]

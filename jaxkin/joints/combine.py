@@ -21,7 +21,7 @@ from jaxtyping import Float
 
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.movements import MOVEMENTS, Movement
-from jaxkin.geometry.pose import Pose, Vector, frame
+from jaxkin.geometry.pose import Transform, Vector, frame
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.regularise import Noise, movements
 from jaxkin.joints.screws import Screws, complement, freedoms, misfit
@@ -58,7 +58,7 @@ class LowerPair:
     kind: JointKind
     movement: str
     """Key of the pair in `MOVEMENTS`."""
-    frame: Pose
+    frame: Transform
     """Joint frame (4x4) in world coordinates at the assembled pose."""
     margin: float
     """How strictly the contacts forbid all motions that the pair does not allow, dimensionless: the smallest non-zero
@@ -123,7 +123,7 @@ def _scaled(frames: np.ndarray, centre: Vector, size: float) -> np.ndarray:
     return result
 
 
-def _candidate(twists: Screws, frames: np.ndarray, tolerance: float) -> tuple[JointKind, str, Pose] | None:
+def _candidate(twists: Screws, frames: np.ndarray, tolerance: float) -> tuple[JointKind, str, Transform] | None:
     """Find the lower pair with the same first-order freedoms as a space of twists; None if no lower pair has them.
 
     `twists` (6, freedoms) spans the space; `frames` (frames, 4, 4) are all frames of the chains, scaled, from which

@@ -11,7 +11,7 @@ import numpy as np
 
 from jaxkin._traced import traced
 from jaxkin.contacts.contact import Contact
-from jaxkin.geometry.pose import Pose, Vector
+from jaxkin.geometry.pose import Transform, Vector
 from jaxkin.joints.combine import combine as combine_contacts
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.joints.joint import Joint, joint
@@ -229,7 +229,7 @@ def joint_forwards(joint: Joint) -> Joint:
     return replace(joint, frames_1=poses, frames_2=poses)
 
 
-def forwards(pose: Pose) -> Pose:
+def forwards(pose: Transform) -> Transform:
     """Turn a frame by half a turn about its x axis where its z axis points backwards.
 
     It points backwards where the last of its components x, y, z in the world that exceeds 1e-6 is negative.

@@ -13,7 +13,7 @@ import numpy as np
 
 from jaxkin.contacts.states import find_state
 from jaxkin.geometry.movements import MOVEMENTS
-from jaxkin.geometry.pose import Pose, Vector, frame
+from jaxkin.geometry.pose import Transform, Vector, frame
 from jaxkin.joints.combine import LOWER_PAIRS, Chain
 from jaxkin.joints.kinds import JointKind
 
@@ -166,7 +166,7 @@ def _angle_kept(one: MateFeature, other: MateFeature, angle: float) -> Chain:
     return Chain([_ALONE[kind] for kind in kinds], np.stack(frames))
 
 
-def _state(letter: str, *frames: Pose, region: str | None = None) -> tuple[Chain, JointKind]:
+def _state(letter: str, *frames: Transform, region: str | None = None) -> tuple[Chain, JointKind]:
     """Find the displacements of a contact state, and the kind of joint: that of a lower pair where there is one."""
     movements = find_state(letter, region).movements
     pair = MOVEMENTS[movements[0]].pair if len(movements) == 1 else None

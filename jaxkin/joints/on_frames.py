@@ -11,7 +11,7 @@ from jaxkin._arguments import by_name, one_number
 from jaxkin._names import nearest
 from jaxkin._traced import traced
 from jaxkin.geometry.movements import MOVEMENTS
-from jaxkin.geometry.pose import Pose, is_rigid
+from jaxkin.geometry.pose import Transform, is_rigid
 from jaxkin.joints.evidence import BY_HAND
 from jaxkin.joints.joint import Joint, shifted
 from jaxkin.joints.kinds import JointKind
@@ -86,7 +86,7 @@ def _pitch(name: str, kind: str, given: Any) -> float:
     return found
 
 
-def _rigid(name: str, what: str, given: Any) -> Pose:
+def _rigid(name: str, what: str, given: Any) -> Transform:
     """Check a rigid 4x4 pose, which `what` names; ValueError for what is none, and for a traced one."""
     if traced(given):
         raise ValueError(f"joint {name!r}: {what} is traced; make the joint outside of jit, vmap and grad")

@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin._traced import traced
-from jaxkin.geometry.pose import Pose, frame
+from jaxkin.geometry.pose import Transform, frame
 from jaxkin.joints.axis_frame import Triple, axis_frame
 from jaxkin.joints.profiles import Placed
 
@@ -38,7 +38,7 @@ class ProfilePoint(NamedTuple):
 class ProfilePlane(NamedTuple):
     """The plane of a profile."""
 
-    pose: Pose
+    pose: Transform
     """Its axes in the world: x along `direction`, z along `axis`."""
 
     def local(self, name: str, label: str, point: Triple) -> Float[np.ndarray, "2"]:
@@ -57,7 +57,7 @@ class ProfilePlane(NamedTuple):
         flat = self.pose[:3, :2].T @ along
         return flat / np.linalg.norm(flat)
 
-    def frame(self, contact: ProfilePoint, height: float = 0.0) -> Pose:
+    def frame(self, contact: ProfilePoint, height: float = 0.0) -> Transform:
         """Make the frame at a height beside a contact, with x along its tangent."""
         found = np.eye(4)
         found[:2, 3] = contact.beside(height)

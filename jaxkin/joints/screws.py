@@ -17,7 +17,7 @@ from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.elementary_motions import amount, displaced_columns, rates
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.patches import FollowedSpline
-from jaxkin.geometry.pose import Pose, cross, inverse, skew
+from jaxkin.geometry.pose import Transform, cross, inverse, skew
 from jaxkin.joints.joint import Joint
 
 DEPENDENT = 1e-9
@@ -37,7 +37,7 @@ def chain(
     pitch: float = 0.0,
     frames_2: Frames | None = None,
     splines: Sequence[FollowedSpline | None] = (),
-) -> tuple[Pose, Screws]:
+) -> tuple[Transform, Screws]:
     """Compute the displacement D of part 2 relative to part 1 in world coordinates, and the screws of its freedoms.
 
     `q` holds the coordinates of the movements, one after the other. Column k of the screws is the twist S_k with
@@ -96,7 +96,7 @@ def complement(screws: Screws) -> Float[np.ndarray, "constraints 6"]:
     return basis[:, int(np.sum(strengths > DEPENDENT)) :].T
 
 
-def moved(pose: Pose, screws: Screws) -> Screws:
+def moved(pose: Transform, screws: Screws) -> Screws:
     """Displace screws together with the body that they belong to."""
     adjoint = np.zeros((6, 6))
     adjoint[:3, :3] = adjoint[3:, 3:] = pose[:3, :3]
@@ -109,7 +109,7 @@ def freedoms(movements: Sequence[str]) -> int:
     return sum(len(MOVEMENTS[movement].coordinates) for movement in movements)
 
 
-def misfit(movements: Sequence[str], frames: Frames, displacement: Pose) -> float:
+def misfit(movements: Sequence[str], frames: Frames, displacement: Transform) -> float:
     """Measure how near a chain comes to a displacement, starting at the assembled pose: zero if the chain allows it.
 
     Gauss-Newton steps on the twist from the displacement reached to the one wanted. The result is the Frobenius norm of

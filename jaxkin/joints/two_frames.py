@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from jaxkin.geometry.pose import Pose, inverse, rotation, unit
+from jaxkin.geometry.pose import Transform, inverse, rotation, unit
 from jaxkin.geometry.trig import TURN
 from jaxkin.joints.kinds import JointKind
 
@@ -20,14 +20,14 @@ Z = np.array([0.0, 0.0, 1.0])
 class TwoFrames(NamedTuple):
     """The frames of a joint on its two parts, with coordinates zero where the parts are."""
 
-    frame_1: Pose
-    frame_2: Pose
+    frame_1: Transform
+    frame_2: Transform
     values: tuple[float, ...]
     """What the frames as they were given make the coordinates there: angles in -pi to pi, that of a screw with whole
     turns; empty for joints of which only the axes, or the point, are given."""
 
 
-def two_frames(kind: JointKind, first: Pose, second: Pose, pitch: float = 0.0) -> TwoFrames:
+def two_frames(kind: JointKind, first: Transform, second: Transform, pitch: float = 0.0) -> TwoFrames:
     """Move the frames of a joint along what it leaves free, until they differ only in what it forbids.
 
     `first` and `second` (4, 4) are the frames on part 1 and part 2, in world coordinates, where the parts are now; the
@@ -62,13 +62,13 @@ def two_frames(kind: JointKind, first: Pose, second: Pose, pitch: float = 0.0) -
     return TwoFrames(first, second @ back, values.get(kind, ()))
 
 
-def _at(point: np.ndarray) -> Pose:
+def _at(point: np.ndarray) -> Transform:
     pose = np.eye(4)
     pose[:3, 3] = point
     return pose
 
 
-def _cross(first: Pose, second: Pose) -> tuple[Pose, Pose]:
+def _cross(first: Transform, second: Transform) -> tuple[Transform, Transform]:
     """Make the frames of a universal joint: y along the axis on part 1, x along the axis on part 2."""
     y, x = first[:3, 2], second[:3, 2]
     if abs(float(x @ y)) > PERPENDICULAR:

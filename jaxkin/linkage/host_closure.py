@@ -12,7 +12,7 @@ from jaxtyping import Float
 from jaxkin.geometry.characteristic_length import centroid_and_length
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.patches import FollowedSpline
-from jaxkin.geometry.pose import Pose, inverse
+from jaxkin.geometry.pose import Transform, inverse
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.screws import Screws, chain, moved
@@ -50,7 +50,7 @@ class ScaledChain(NamedTuple):
     splines: tuple[FollowedSpline | None, ...]
     """The curves of the movements; empty where no movement has one."""
 
-    def displaced(self, q: Float[np.ndarray, " _"]) -> tuple[Pose, Screws]:
+    def displaced(self, q: Float[np.ndarray, " _"]) -> tuple[Transform, Screws]:
         """Compute the displacement of part 2 relative to part 1, and the screws of the coordinates: see `chain`."""
         return chain(self.movements, self.frames_1, q, self.pitch, self.frames_2, self.splines)
 
@@ -71,11 +71,11 @@ class Travel(NamedTuple):
     the residual where the loop is closed. After those of all loops the `coupling_jacobian`."""
     screws: Screws
     """Unit twists (6, columns) of the coordinates of all joints, angular velocity first."""
-    starts: tuple[Pose, ...]
+    starts: tuple[Transform, ...]
     """Displacement of the part at which each loop starts."""
     left_open: Float[np.ndarray, "loops 4 4"]
     """For each loop the displacement that is left when it has been travelled: the identity if the loop is closed."""
-    places: Mapping[str, Pose]
+    places: Mapping[str, Transform]
     """Displacement of each row of parts from the assembled pose; the part at which the first loop starts is at rest."""
     coupling_residual: Float[np.ndarray, " couplings"]
     """Left-hand side of each coupling less its offset, over its largest coefficient."""
@@ -200,9 +200,9 @@ class ClosedLoops:
     def travel(self, q: Row) -> Travel:
         """Travel around all loops at scaled coordinates `q`, each from the part at which it starts."""
         steps = {index: each.displaced(q[self.slices[index]]) for index, each in self.chains.items()}
-        places: dict[str, Pose] = {}
-        starts: list[Pose] = []
-        left_open: list[Pose] = []
+        places: dict[str, Transform] = {}
+        starts: list[Transform] = []
+        left_open: list[Transform] = []
         residual = np.zeros((len(self.loop_group.loops), 6))
         jacobian = np.zeros((len(self.loop_group.loops), 6, len(q)))
         screws = np.zeros((6, len(q)))

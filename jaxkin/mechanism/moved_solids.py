@@ -10,7 +10,7 @@ import numpy as np
 
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.part import Part, moved
-from jaxkin.geometry.pose import Pose, apply
+from jaxkin.geometry.pose import Transform, apply
 
 _ALIKE = 1e-12
 """Radians, or lengths over the distance from the origin: two parts that were moved by the same but for rounding."""
@@ -27,7 +27,7 @@ class MovedSolids(NamedTuple):
 
 
 def moved_solids(
-    solids: Sequence[Part], contacts: Mapping[str, tuple[Contact, ...]], places: Mapping[str, Pose]
+    solids: Sequence[Part], contacts: Mapping[str, tuple[Contact, ...]], places: Mapping[str, Transform]
 ) -> MovedSolids:
     """Move solids, and contacts by the name of their joint, by the displacements of parts.
 
@@ -43,13 +43,13 @@ def moved_solids(
     return MovedSolids(displaced, found, tuple(name for name in contacts if name not in found))
 
 
-def _can_follow(contact: Contact, places: Mapping[str, Pose]) -> bool:
+def _can_follow(contact: Contact, places: Mapping[str, Transform]) -> bool:
     one, other = (places[part] for part in contact.parts)
     size = np.array([1.0, 1.0, 1.0, 1.0 + np.abs(contact.frames[:, :3, 3]).max()])
     return len(contact.frames) == 1 or bool(np.all(np.abs(one - other) <= _ALIKE * size))
 
 
-def _moved_contact(contact: Contact, places: Mapping[str, Pose]) -> Contact:
+def _moved_contact(contact: Contact, places: Mapping[str, Transform]) -> Contact:
     one, other = (places[part] for part in contact.parts)
     surfaces = contact.surfaces[0].moved(one), contact.surfaces[1].moved(other)
     return replace(contact, frames=one @ contact.frames, surfaces=surfaces, centre=apply(one, contact.centre))

@@ -12,8 +12,7 @@ from jaxtyping import Float
 from jaxkin._arguments import check_motion
 from jaxkin._traced import traced
 from jaxkin.geometry.movements import MOVEMENTS
-from jaxkin.geometry.pose import Pose as Displacement
-from jaxkin.geometry.pose import inverse
+from jaxkin.geometry.pose import Transform, inverse
 from jaxkin.joints.joint import Joint, shifted
 from jaxkin.joints.screws import chain, freedoms
 from jaxkin.linkage.coupled import counted_from
@@ -55,7 +54,7 @@ def mechanism_at(mechanism: Mechanism, motion: Motion | Pose, index: int) -> Mec
 
 def placed_at(
     mechanism: Mechanism, coordinates: Mapping[str, Float[np.ndarray, " _"]], noise: float
-) -> tuple[Mechanism, dict[str, Displacement]]:
+) -> tuple[Mechanism, dict[str, Transform]]:
     """Assemble a mechanism where its joints, by name, are displaced by `coordinates`, in a pose whose loops close.
 
     All lengths stay as they are; displacements, limits and couplings count from there. `noise` is that of `aligned`.
@@ -78,7 +77,7 @@ def placed_at(
     return found, places
 
 
-def part_places(linkage: Linkage, coordinates: Sequence[Float[np.ndarray, " _"]]) -> dict[str, Displacement]:
+def part_places(linkage: Linkage, coordinates: Sequence[Float[np.ndarray, " _"]]) -> dict[str, Transform]:
     """Compute displacements of all parts, in world coordinates, from those of all joints along the tree."""
     places = {part: np.eye(4) for part in linkage.fixed}
     for part, parent, index, sign in linkage.structure.tree:
@@ -87,12 +86,12 @@ def part_places(linkage: Linkage, coordinates: Sequence[Float[np.ndarray, " _"]]
     return {part: places[part] for part in linkage.parts}
 
 
-def _displacement(joint: Joint, q: Float[np.ndarray, " _"]) -> Displacement:
+def _displacement(joint: Joint, q: Float[np.ndarray, " _"]) -> Transform:
     before, after = (np.asarray(side, float) for side in (joint.frames_1, joint.frames_2))
     return chain(joint.movements, before, q, float(joint.pitch), after, joint.splines)[0]
 
 
-def _placed(joint: Joint, place: Displacement, q: Float[np.ndarray, " _"]) -> Joint:
+def _placed(joint: Joint, place: Transform, q: Float[np.ndarray, " _"]) -> Joint:
     """Move a joint to its new place, where the frames on its two parts are the same.
 
     Each frame goes along with all elementary motions of its movement but the last one: from there on the movement is

@@ -17,7 +17,7 @@ import numpy as np
 from jaxkin._arguments import several
 from jaxkin._names import listed
 from jaxkin._traced import traced
-from jaxkin.geometry.pose import Pose, turned_by
+from jaxkin.geometry.pose import Transform, turned_by
 from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.closed_loops import closed_loops
 from jaxkin.linkage.coordinates import coordinate
@@ -67,7 +67,7 @@ class Reassembly:
     """How many other starts were tried."""
     left: Opening | None
     """What stays open; None where nothing does."""
-    places: Mapping[str, Pose] = field(default_factory=dict)
+    places: Mapping[str, Transform] = field(default_factory=dict)
     """Displacement (4, 4) of each part from the given pose, in world coordinates; empty where no part was moved."""
     coordinates: Mapping[str, Row] = field(default_factory=dict)
     """Displacement of each joint from the given pose, by name, a number for each of its coordinates; empty likewise."""
@@ -179,7 +179,7 @@ def _rounding(unit: str, moved: Sequence[_ClosedGroup]) -> list[str]:
     return [f"for the rounding of the numbers, loops were closed that stay open by {said}"] if left else []
 
 
-def _move(linkage: Linkage, part: str, place: Pose) -> Move:
+def _move(linkage: Linkage, part: str, place: Transform) -> Move:
     sides = [
         np.asarray(side, float)[frame, :3, 3]
         for joint in linkage.joints

@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.geometry.pose import Pose
+from jaxkin.geometry.pose import Transform
 from jaxkin.joints.screws import Screws
 from jaxkin.linkage.first_order import null_space
 from jaxkin.linkage.host_closure import ClosedLoops, Row, Travel
@@ -67,7 +67,7 @@ def other_modes(loops: ClosedLoops, q: Row, held: Sequence[int] = ()) -> list[fl
     return [left for left in distances if left > APART]
 
 
-def _led_back(loops: ClosedLoops, q: Row, found: Travel, home: Mapping[str, Pose]) -> float:
+def _led_back(loops: ClosedLoops, q: Row, found: Travel, home: Mapping[str, Transform]) -> float:
     """Move the parts from closed coordinates `q` towards the displacements `home`, and measure what distance is left.
 
     Gauss-Newton steps reduce the differences of the displacements within the freedoms; the loops are closed after each.
@@ -93,13 +93,13 @@ def _led_back(loops: ClosedLoops, q: Row, found: Travel, home: Mapping[str, Pose
     return float(np.abs(apart).max())
 
 
-def _differences(places: Mapping[str, Pose], home: Mapping[str, Pose]) -> Float[np.ndarray, " entries"]:
+def _differences(places: Mapping[str, Transform], home: Mapping[str, Transform]) -> Float[np.ndarray, " entries"]:
     """Subtract displacements, twelve entries a part: columns of the rotation, then the translation."""
     return np.concatenate([(places[part] - place)[:3].T.ravel() for part, place in home.items()])
 
 
 def _rates_of_places(
-    loops: ClosedLoops, places: Mapping[str, Pose], screws: Screws
+    loops: ClosedLoops, places: Mapping[str, Transform], screws: Screws
 ) -> Float[np.ndarray, "entries columns"]:
     """Differentiate the entries of `_differences` with respect to the coordinates, along the loops as `travel` does."""
     twists: dict[str, Screws] = {}

@@ -13,7 +13,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin._memory import once_for_each
-from jaxkin.geometry.pose import Pose
+from jaxkin.geometry.pose import Transform
 from jaxkin.joints.screws import Screws
 from jaxkin.joints.subgroups import Subgroup, subgroup
 from jaxkin.linkage.closed_loops import closed_loops
@@ -76,7 +76,7 @@ class LoopFreedoms:
         return self._generic[1].screws
 
     @cached_property
-    def places(self) -> Mapping[str, Pose]:
+    def places(self) -> Mapping[str, Transform]:
         """Displacements of the rows of parts at the pose of `screws`, about `centre` over `length`."""
         return self._generic[1].places
 

@@ -19,7 +19,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.chains import coordinate_ranges
-from jaxkin.geometry.pose import Pose, inverse
+from jaxkin.geometry.pose import Transform, inverse
 from jaxkin.joints.screws import moved
 from jaxkin.linkage.first_order import null_space
 from jaxkin.linkage.host_closure import ClosedLoops, Row
@@ -104,7 +104,7 @@ def _frame_jacobian(loops: ClosedLoops, frames: list[tuple[int, int]], q: Row) -
     A frame that moves by `p` on both sides changes its displacement D by `p D - D p`: by the twist `p - Ad_D p`.
     """
     first = {frame: 6 * number for number, frame in enumerate(frames)}
-    steps: dict[int, list[Pose]] = {}
+    steps: dict[int, list[Transform]] = {}
     for joint, each in loops.chains.items():
         own = q[loops.slices[joint]]
         numbered = enumerate(coordinate_ranges(each.movements))
@@ -128,7 +128,7 @@ def _move(loops: ClosedLoops, frames: list[tuple[int, int]], twists: Twists) -> 
         loops.chains[joint] = loops.chains[joint]._replace(frames_1=before, frames_2=before)
 
 
-def _moved_frame(frame: Pose, twist: Float[np.ndarray, "6"]) -> Pose:
+def _moved_frame(frame: Transform, twist: Float[np.ndarray, "6"]) -> Transform:
     """Move a frame by a small twist; its axes stay orthonormal to rounding."""
     turn, shift = twist[:3], twist[3:]
     cross = np.array([[0, -turn[2], turn[1]], [turn[2], 0, -turn[0]], [-turn[1], turn[0], 0]])

@@ -11,7 +11,7 @@ from jaxtyping import Float
 from jaxkin.geometry.figures import BallFigure, BoxFigure, CylinderFigure, Figure
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.part import Part
-from jaxkin.geometry.pose import Pose
+from jaxkin.geometry.pose import Transform
 from jaxkin.joints.evidence import EvidenceKind
 from jaxkin.view.curve_figures import curve_figures
 
@@ -74,7 +74,7 @@ def stick_parts(mechanism: Mechanism) -> tuple[Part, ...]:
     return tuple(Part(part, (), radius * np.concatenate([none, *pieces[part]])) for part in mechanism.parts)
 
 
-def _frames(mechanism: Mechanism) -> dict[str, tuple[Pose, Pose]]:
+def _frames(mechanism: Mechanism) -> dict[str, tuple[Transform, Transform]]:
     """Find for each joint the frame at its end of part 1 and that of part 2, copied.
 
     A fixed joint is nowhere in particular: it goes to the middle of the other joints of its parts, if they have any.
@@ -145,7 +145,7 @@ def _distinct(points: list[Float[np.ndarray, "3"]]) -> list[Float[np.ndarray, "3
     return kept
 
 
-def _shape(shape: Figure, pose: Pose) -> Triangles:
+def _shape(shape: Figure, pose: Transform) -> Triangles:
     from trimesh.creation import box, cylinder, icosphere
 
     match shape:
