@@ -43,7 +43,7 @@ class Assembly:
     source: str
     """The file that it was read from."""
     exported: Exported | None = None
-    """What its CAD system says of joints and bodies, where the file holds that."""
+    """What the file itself says of joints and bodies: the export of a CAD system, a robot; None where it is solids."""
     saved: Mechanism | None = None
     """The mechanism that the file holds, where `Mechanism.save` wrote it."""
 

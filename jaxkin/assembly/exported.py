@@ -1,4 +1,8 @@
-"""What a CAD system says of an assembly beside its solids: which parts it holds, bodies, joints and mates."""
+"""What a file says of an assembly beside its solids: which parts are held, bodies, joints, mates, motors, couplings.
+
+The exports of CAD systems, the files of robots and FreeCAD's documents say it; all become a mechanism in one way,
+`jaxkin.assembly.from_export`.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +24,7 @@ class Constraint:
     parts: tuple[str, str]
     """Part 1 and part 2; displacements are those of part 2 relative to part 1."""
     text: str
-    """What the CAD system calls it, such as "Revolute 'hinge'"."""
+    """What the file calls it, such as "Revolute 'hinge'"."""
     chain: Chain
     """The displacements that it allows; a weld allows none."""
     kind: JointKind | None
@@ -40,10 +44,10 @@ class Constraint:
 
 @dataclass(frozen=True, eq=False)
 class Exported:
-    """What the export of a CAD system says."""
+    """What the export of a CAD system, or the file of a robot, says."""
 
     fixed: tuple[str, ...]
-    """Parts that the CAD system holds."""
+    """Parts that the file holds at rest."""
     rigid: tuple[tuple[str, ...], ...]
     """Groups of parts that do not move against each other."""
     constraints: tuple[Constraint, ...]

@@ -1,4 +1,4 @@
-"""The mechanism that the joints and mates of a CAD system make, as its export says them."""
+"""The mechanism of the joints and mates that the export of a CAD system, or the file of a robot, says."""
 
 from __future__ import annotations
 

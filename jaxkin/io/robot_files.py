@@ -10,7 +10,7 @@ from jaxkin.geometry.part import Part
 from jaxkin.io.asmt import read_asmt
 from jaxkin.io.fcstd import read_fcstd
 from jaxkin.io.mjcf import read_mjcf
-from jaxkin.io.robots import assembled
+from jaxkin.io.robots import parts_and_export
 from jaxkin.io.sdf import read_sdf
 from jaxkin.io.urdf import read_urdf
 from jaxkin.io.xml_tree import read_xml
@@ -39,15 +39,15 @@ def read_robot(
     suffix = path.suffix.lower()
     if suffix in (ASMT, FCSTD):
         _refuse_loops(path, loops)
-        return assembled(read_asmt(path) if suffix == ASMT else read_fcstd(path), path, seconds)
+        return parts_and_export(read_asmt(path) if suffix == ASMT else read_fcstd(path), path, seconds)
     root = read_xml(path) if root is None else root
     if root.tag == "robot":
-        return assembled(read_urdf(path, root, loops), path, seconds)
+        return parts_and_export(read_urdf(path, root, loops), path, seconds)
     _refuse_loops(path, loops)
     if root.tag == "mujoco":
-        return assembled(read_mjcf(path, root), path, seconds)
+        return parts_and_export(read_mjcf(path, root), path, seconds)
     if root.tag == "sdf":
-        return assembled(read_sdf(path, root), path, seconds)
+        return parts_and_export(read_sdf(path, root), path, seconds)
     if root.tag == "mujocoinclude":
         raise ValueError(f"{path.name}: it is a part of a model (<mujocoinclude>): load the file that includes it")
     raise ValueError(f"{path.name}: expected URDF (<robot>), MJCF (<mujoco>) or SDF (<sdf>), got <{root.tag}>")

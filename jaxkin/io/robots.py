@@ -29,7 +29,7 @@ LEAST_EXTENT = 1e-3
 """Extent in metres that a robot is given at least: all links of one may begin at the same point."""
 
 
-def assembled(model: RobotModel, path: Path, seconds: float | None) -> tuple[tuple[Part, ...], str, Exported]:
+def parts_and_export(model: RobotModel, path: Path, seconds: float | None) -> tuple[tuple[Part, ...], str, Exported]:
     """Make the parts of a robot in a closed pose, their unit, and what the file says of joints and bodies.
 
     Meshes that are there are read as they are, without looking for faces; links without a solid are small boxes.
