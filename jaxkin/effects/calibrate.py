@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -15,7 +15,7 @@ from jaxtyping import Array, Bool, Float
 from jaxkin._arguments import by_name, check_known, check_mechanism, whole_number
 from jaxkin.effects.calibration_data import Data, Kind, data_of
 from jaxkin.effects.calibration_result import Calibration
-from jaxkin.effects.calibration_unknowns import Unknowns, nominal_values, unknowns_of
+from jaxkin.effects.calibration_unknowns import Nominal, Unknowns, unknowns_of
 from jaxkin.effects.rank_deficient_fit import Fit, fit, readable, told
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.targets import extent
@@ -36,6 +36,17 @@ class Model:
     driven: tuple[Any, ...]
     """Keys of the drive."""
     options: SolverOptions
+
+
+class _Numbers(NamedTuple):
+    """The numbers of a calibration."""
+
+    inputs: tuple[Any, ...]
+    """Of the drive, in the order of `Model.driven`."""
+    values: tuple[Any, ...]
+    """Those of `Data`, and so are the weights."""
+    weights: tuple[Any, ...]
+    nominal: Nominal
 
 
 def calibrate(
@@ -81,46 +92,43 @@ def calibrate(
     motion = mechanism.sweep(driven, options=options)
     _check_start(motion.on_branch)
     data = data_of(mechanism, measured, sigma, len(motion))
-    unknowns, axes = unknowns_of(mechanism, lengths, frames, markers, measured)
+    unknowns, nominal = unknowns_of(mechanism, lengths, frames, markers, measured)
     model = Model(unknowns, data.kinds, tuple(driven), options_with(options))
     inputs = tuple(np.asarray(values, float) for values in driven.values())
-    nominal = nominal_values(mechanism, unknowns)
+    numbers = _Numbers(inputs, data.values, data.weights, nominal)
     scales = np.where(unknowns.are_angles(mechanism.linkage), 1.0, extent(mechanism))
 
     def evaluate(scaled: Float[np.ndarray, " unknowns"]):
         changes = scales * scaled
-        rows, slopes, reached = jax.device_get(
-            _residuals(model, mechanism, inputs, data.values, data.weights, nominal, tuple(axes), changes)
-        )
+        rows, slopes, reached = jax.device_get(_residuals(model, mechanism, numbers, changes))
         valid = bool(np.all(reached) and np.isfinite(rows).all() and np.isfinite(slopes).all())
         return rows, slopes * scales, valid
 
     for number, name in enumerate(unknowns.names):
-        if not evaluate(SMALL * np.eye(len(nominal))[number])[2]:
+        if not evaluate(SMALL * np.eye(len(scales))[number])[2]:
             raise ValueError(
                 f"the loops do not close where {name!r} changes a little: an overconstrained mechanism has no room for "
                 "it; leave it out, or give lengths that keep the mechanism what it is"
             )
-    return _result(
-        mechanism, model, data, nominal, axes, scales, fit(evaluate, np.zeros(len(nominal)), iterations), sigma
-    )
+    found = fit(evaluate, np.zeros(len(scales)), iterations)
+    return _result(mechanism, model, data, nominal, scales, found, sigma)
 
 
 @partial(jax.jit, static_argnums=0)
-def _residuals(model: Model, mechanism: Mechanism, inputs, values, weights, nominal, axes, changes):
+def _residuals(model: Model, mechanism: Mechanism, numbers: _Numbers, changes: Float[Array, " unknowns"]):
     """Compute weighted residuals, their derivatives by the unknowns, and which poses are on the branch."""
 
-    def rows(numbers: Float[Array, " unknowns"]):
-        found, markers = model.unknowns.applied(mechanism, nominal, axes, numbers)
-        motion = found.sweep(dict(zip(model.driven, inputs, strict=True)), options=model.options)
+    def rows(changes: Float[Array, " unknowns"]):
+        found, markers = model.unknowns.applied(mechanism, numbers.nominal, changes)
+        motion = found.sweep(dict(zip(model.driven, numbers.inputs, strict=True)), options=model.options)
         off = [
             (weight * kind.residual(motion, value, markers)).ravel()
-            for kind, value, weight in zip(model.kinds, values, weights, strict=True)
+            for kind, value, weight in zip(model.kinds, numbers.values, numbers.weights, strict=True)
         ]
         return jnp.concatenate(off), motion.on_branch
 
-    def twice(numbers: Float[Array, " unknowns"]):
-        found, reached = rows(numbers)
+    def twice(changes: Float[Array, " unknowns"]):
+        found, reached = rows(changes)
         return found, (found, reached)
 
     slopes, (found, reached) = jax.jacfwd(twice, has_aux=True)(changes)
@@ -131,8 +139,7 @@ def _result(
     mechanism: Mechanism,
     model: Model,
     data: Data,
-    nominal: Float[np.ndarray, " unknowns"],
-    axes: Sequence[Any],
+    nominal: Nominal,
     scales: Float[np.ndarray, " unknowns"],
     found: Fit,
     sigma: Any,
@@ -142,7 +149,7 @@ def _result(
     if not len(singular):
         raise ValueError("the measured values do not depend on any of the unknowns: they tell nothing about them")
     changes = scales * found.unknowns
-    fitted, _ = model.unknowns.applied(mechanism, nominal, axes, changes)
+    fitted, _ = model.unknowns.applied(mechanism, nominal, changes)
     freedom = data.count - len(singular)
     square = float(found.residuals @ found.residuals)
     deviation = float(np.sqrt(square / freedom)) if freedom > 0 else np.nan
@@ -159,8 +166,8 @@ def _result(
     return Calibration(
         mechanism=fitted,
         names=names,
-        given=nominal,
-        values=np.where(lost, np.nan, nominal + changes),
+        given=nominal.values,
+        values=np.where(lost, np.nan, nominal.values + changes),
         covariance=covariance,
         undetermined=tuple(_named(names, row) for row in readable(rest * scales)),
         residuals=residuals,

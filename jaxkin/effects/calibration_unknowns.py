@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import jax.numpy as jnp
 import numpy as np
@@ -33,13 +33,34 @@ WORLD_AXIS = 1e-9
 """Sine of the angle within which the normal of a plane counts as an axis of the world."""
 
 
+class UnknownFrame(NamedTuple):
+    """A joint frame that may change. Static to JAX."""
+
+    place: Any
+    """The joint, or (part, joint), as it was given."""
+    joint: int
+    """Number of the joint in `Linkage.joints`."""
+    sides: tuple[str, ...]
+    """"frames_1", "frames_2" or both."""
+    components: tuple[int, ...]
+    """Those that may change, as numbers in `COMPONENTS`."""
+
+
+class Nominal(NamedTuple):
+    """The numbers from which changes are counted."""
+
+    values: Float[np.ndarray, " unknowns"]
+    """Lengths and markers as given, zeros for frames."""
+    axes: tuple[Float[np.ndarray, "3 3"], ...]
+    """The directions of x, y, z of each unknown frame, as rows."""
+
+
 @dataclass(frozen=True)
 class Unknowns:
     """The unknowns, one after another: lengths, components of frames, points. Static to JAX."""
 
     lengths: tuple[Any, ...]
-    frames: tuple[tuple[Any, int, tuple[str, ...], tuple[int, ...]], ...]
-    """For each place of a frame the column of the joint, the sides and the components that may change."""
+    frames: tuple[UnknownFrame, ...]
     markers: tuple[Target, ...]
     """Measured points whose place on the part is unknown: three numbers each."""
 
@@ -47,45 +68,40 @@ class Unknowns:
     def names(self) -> tuple[str, ...]:
         """A name for each unknown."""
         found = [written(key) for key in self.lengths]
-        found += [f"{COMPONENTS[k]} of {written(place)}" for place, _, _, parts in self.frames for k in parts]
+        found += [f"{COMPONENTS[k]} of {written(each.place)}" for each in self.frames for k in each.components]
         return (*found, *(f"{axis} of {marker.joint}" for marker in self.markers for axis in "xyz"))
 
     def are_angles(self, linkage: Linkage) -> tuple[bool, ...]:
         """Tell which unknowns are angles; all others are lengths."""
         found = [find_length(linkage, key).quantity == "angle" for key in self.lengths]
-        found += [k > 2 for *_, parts in self.frames for k in parts]
+        found += [k > 2 for each in self.frames for k in each.components]
         return (*found, *[False] * (3 * len(self.markers)))
 
-    def applied(
-        self, mechanism: Mechanism, nominal: Any, axes: Sequence[Any], changes: Any
-    ) -> tuple[Mechanism, dict[Target, Any]]:
-        """Change a mechanism, and say where the markers are on their parts then.
-
-        `nominal` are the lengths as given, `axes` (3, 3) the directions of x, y, z of each frame, as rows.
-        """
+    def applied(self, mechanism: Mechanism, nominal: Nominal, changes: Any) -> tuple[Mechanism, dict[Target, Any]]:
+        """Change a mechanism, and say where the markers are on their parts then."""
         count = len(self.lengths)
         if count:
             new = {
                 key: now + change
-                for key, now, change in zip(self.lengths, nominal[:count], changes[:count], strict=True)
+                for key, now, change in zip(self.lengths, nominal.values[:count], changes[:count], strict=True)
             }
             mechanism = mechanism.with_lengths(new)
         xp = jnp if traced(mechanism, changes) else np
         joints: list[Joint] = list(mechanism.all_joints)
-        for (_, column, sides, parts), rows in zip(self.frames, axes, strict=True):
+        for each, rows in zip(self.frames, nominal.axes, strict=True):
             here = [xp.zeros(())] * 6
-            for number, part in enumerate(parts):
-                here[part] = changes[count + number]
-            count += len(parts)
-            shift, turn = (xp.stack(each) @ xp.asarray(rows) for each in (here[:3], here[3:]))
-            for side in sides:
-                frames = list(getattr(joints[column], side))
+            for number, component in enumerate(each.components):
+                here[component] = changes[count + number]
+            count += len(each.components)
+            shift, turn = (xp.stack(three) @ xp.asarray(rows) for three in (here[:3], here[3:]))
+            for side in each.sides:
+                frames = list(getattr(joints[each.joint], side))
                 end = 0 if side == "frames_1" else -1
                 pose = xp.asarray(frames[end])
                 frames[end] = shifted(xp, turned(xp, pose, turn, pose[:3, 3]), shift)
                 stacked = xp.stack(frames)
-                given = joints[column]
-                joints[column] = (
+                given = joints[each.joint]
+                joints[each.joint] = (
                     replace(given, frames_1=stacked) if side == "frames_1" else replace(given, frames_2=stacked)
                 )
         if self.frames:
@@ -99,8 +115,8 @@ class Unknowns:
 
 def unknowns_of(
     mechanism: Mechanism, lengths: Any, frames: Any, markers: Any, measured: Mapping[Any, Any]
-) -> tuple[Unknowns, list[Float[np.ndarray, "3 3"]]]:
-    """Check the unknowns that were asked for, and find the axes of each frame; ValueError for what is not there."""
+) -> tuple[Unknowns, Nominal]:
+    """Check the unknowns that were asked for, and find their nominal numbers; ValueError for what is not there."""
     if isinstance(lengths, str) or (isinstance(lengths, tuple) and lengths and isinstance(lengths[0], str)):
         raise ValueError(f"lengths must be a list of keys of mechanism.lengths, as [{lengths!r}], got {lengths!r}")
     keys = several(lengths, "lengths", "keys of mechanism.lengths")
@@ -109,25 +125,20 @@ def unknowns_of(
     if len(set(keys)) < len(keys):
         raise ValueError("lengths names one of them twice")
     wanted = [(place, None) for place in several(frames, "frames", "joints and (part, joint)")]
-    found, axes = [], []
+    found: list[UnknownFrame] = []
+    axes = []
     for place, components in frames.items() if isinstance(frames, Mapping) else wanted:
-        column, side = locate(mechanism.linkage, place)
-        if place in [known[0] for known in found]:
+        number, side = locate(mechanism.linkage, place)
+        if place in [known.place for known in found]:
             raise ValueError(f"frames names {place!r} twice")
-        joint = mechanism.all_joints[column]
+        joint = mechanism.all_joints[number]
         if side is None and len(joint.movements) > 1:
             raise ValueError(f"frames: {place!r} has several frames: say on which part, as {(joint.parts[0], place)!r}")
-        normal = mechanism.linkage.normal([column])
+        normal = mechanism.linkage.normal([number])
         known = COMPONENTS if normal is None else IN_PLANE
         rows = np.eye(3) if normal is None or _is_z(normal) else frame(np.zeros(3), normal)[:3, :3].T
-        found.append(
-            (
-                place,
-                column,
-                ("frames_1", "frames_2") if side is None else (side,),
-                _components(place, components, known),
-            )
-        )
+        sides = ("frames_1", "frames_2") if side is None else (side,)
+        found.append(UnknownFrame(place, number, sides, _components(place, components, known)))
         axes.append(rows)
     if isinstance(markers, Target):
         raise ValueError(f"markers must be a list of measured points, as [{markers!r}], got {markers!r}")
@@ -139,14 +150,10 @@ def unknowns_of(
     unknowns = Unknowns(keys, tuple(found), markers)
     if not unknowns.names:
         raise ValueError("nothing to calibrate: name lengths, frames or markers")
-    return unknowns, axes
-
-
-def nominal_values(mechanism: Mechanism, unknowns: Unknowns) -> Float[np.ndarray, " unknowns"]:
-    """List the values from which the unknowns are counted: lengths and markers as given, zeros for frames."""
-    lengths = [float(length_now(mechanism.linkage, key)) for key in unknowns.lengths]
-    zeros = [0.0 for *_, parts in unknowns.frames for _ in parts]
-    return np.array([*lengths, *zeros, *(x for marker in unknowns.markers for x in marker.at or ())])
+    values = [float(length_now(mechanism.linkage, key)) for key in keys]
+    values += [0.0 for each in found for _ in each.components]
+    values += [x for marker in markers for x in marker.at or ()]
+    return unknowns, Nominal(np.array(values), tuple(axes))
 
 
 def written(key: Any) -> str:
