@@ -1,1 +1,18 @@
-"""Solids in their assembled pose, and the way from their contacts to a mechanism."""
+"""Solids in their assembled pose, and how they become a mechanism.
+
+The route is told on the page "Architecture". What the modules do on it:
+
+| step | modules |
+|---|---|
+| what the user holds, and asks for | `assembly`, `ignored_contacts` |
+| contacts, inferences and joints by hand become a mechanism | `to_mechanism` |
+| what the file itself says of its joints | `exported`, `close_export`, `from_export`, `subassemblies` |
+| what solids imply beside exact contacts | `inference`, tried by `with_inferences` and `dropped_inference` |
+| bodies that are held to each other, where all else moves as before | `seats`, `guides`, `resting`, `lids` |
+| parts that only spin | `spinning`, `needless`, `at_rest` |
+| mechanisms of joints by hand alone: parts that nothing ties, faces in contact | `left_loose`, `kept_contacts` |
+| notes for the user | `near_misses`, `caps` |
+
+Asked for by users, of an assembly or a mechanism: what to fix and drive (`proposals`, `wheels`), which contacts lock it
+(`blocking_contacts`), and gears (`gears`, `gear_proposal`, `toothed_parts`, `racks`).
+"""

@@ -41,6 +41,19 @@ def test_the_functions_on_the_route_of_the_solver_are_in_their_files():
     assert [step for step in steps if step[1] and not defined(f"jaxkin/solve/{step[0]}", step[1])] == []
 
 
+@pytest.mark.parametrize("folder", ["assembly", "io"])
+def test_the_index_of_a_large_folder_names_all_its_modules(folder):
+    """Each by its name, or as one of those whose names begin alike, `step_...`."""
+    inside = ROOT / "jaxkin" / folder
+    modules = {path.stem for path in inside.iterdir() if path.suffix == ".py" or (path / "__init__.py").exists()}
+    modules.remove("__init__")
+    named = re.findall(r"`(\w+(?:\.\.\.)?)`", (inside / "__init__.py").read_text(encoding="utf-8"))
+    begin = tuple(each.removesuffix("...") for each in named if each.endswith("..."))
+    assert {module for module in modules if not module.startswith(begin or ("...",))} <= set(named)
+    assert {each for each in named if not each.endswith("...")} <= modules
+    assert [each for each in begin if not any(module.startswith(each) for module in modules)] == []
+
+
 def defined(file: str, what: str) -> bool:
     """Whether a name is defined at the top of a file, or in a class of it."""
     return re.search(rf"^ *(?:def|class) {what}\b|^ *{what}\b *[:=]", (ROOT / file).read_text(), re.M) is not None
