@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from jaxkin._names import listed
-from jaxkin.assembly.needless import Found, found_spinning
+from jaxkin.assembly.needless import SpinningParts, found_spinning
 from jaxkin.assembly.spinning import Spin
 from jaxkin.contacts.contact import Contact
 from jaxkin.joints.evidence import BY_HAND
@@ -70,7 +70,7 @@ def _neighbours(mechanism: Mechanism, part: str) -> list[str]:
     )
 
 
-def _notes(mechanism: Mechanism, resting: dict[str, Spin], found: Found) -> list[str]:
+def _notes(mechanism: Mechanism, resting: dict[str, Spin], found: SpinningParts) -> list[str]:
     """Say which parts are left at rest, and which are kept since others need them."""
     notes = []
     for part, spin in resting.items():

@@ -35,7 +35,7 @@ Fewer than the seven digits of float32, so that the noise of the file does not d
 Parts = list[str]
 
 
-class Found(NamedTuple):
+class SpinningParts(NamedTuple):
     """The parts of a mechanism that only spin, and those that would by themselves, but not together with these."""
 
     spins: dict[str, Spin]
@@ -45,7 +45,7 @@ class Found(NamedTuple):
     """Groups of parts joined to each other that are needless by themselves, but not together with those in `spins`."""
 
 
-def found_spinning(mechanism: Mechanism, kept: Sequence[str] = ()) -> Found:
+def found_spinning(mechanism: Mechanism, kept: Sequence[str] = ()) -> SpinningParts:
     """Find the parts of a mechanism that only spin, in the order of its parts.
 
     Parts named in `kept` are not judged needless; they are still found if they have a single neighbour.
@@ -63,7 +63,7 @@ def found_spinning(mechanism: Mechanism, kept: Sequence[str] = ()) -> Found:
             remaining = tuple(part for part in group if part not in chosen)
             if remaining and candidates.is_needless(group) and not candidates.is_needless([*chosen, *remaining]):
                 needed.append(remaining)
-    return Found({part: found[part] for part in mechanism.parts if part in found}, tuple(needed))
+    return SpinningParts({part: found[part] for part in mechanism.parts if part in found}, tuple(needed))
 
 
 def with_spinning(mechanism: Mechanism) -> Mechanism:

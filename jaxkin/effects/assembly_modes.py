@@ -1,7 +1,7 @@
 """All assembly modes of a mechanism for given inputs: the closed poses, whether or not a motion connects them.
 
 `assembly_modes` checks the drive, and sweeps to the pose on the branch. `mode_search.find_modes` finds the closed poses
-of each loop group; those of different loop groups are combined each with each. (`jaxkin.mobility.assembly_modes` only
+of each loop group; those of different loop groups are combined each with each. (`jaxkin.mobility.other_modes` only
 asks, on the host, whether open loops may close in other ways near the assembled pose.)
 """
 

@@ -25,8 +25,8 @@ from jaxkin.linkage.host_closure import ClosedLoops, Row
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.placed_at import placed_at
 from jaxkin.mobility.alignment import asked_noise, extent
-from jaxkin.mobility.assembly_modes import STARTS, closed_from_elsewhere, other_modes
 from jaxkin.mobility.open_loops import Opening, tell_opening
+from jaxkin.mobility.other_modes import STARTS, closed_from_elsewhere, other_modes
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism

@@ -40,22 +40,22 @@ Numbers = Array | np.ndarray
 
 
 class Windings(NamedTuple):
-    """How often the unknown angles go round along the nodes, which are equally spaced."""
+    """The unknown angles at the nodes, which are equally spaced: by them principal values get their full turns."""
 
     begin: Float[Numbers, ""]
-    """Input of the first node."""
+    """Input of the first node, radians or characteristic lengths."""
     spacing: Float[Numbers, ""]
-    """From node to node."""
+    """Difference of the inputs of neighbouring nodes."""
     angles: Rows
     """Unknown angles at all nodes, radians, right to 0.08, unwrapped along the line."""
     begun: Float[Numbers, " angles"]
-    """Full turns of the unknown angles on the line at the assembled pose, radians."""
+    """The full turns in `angles` at the node of the assembled pose: multiples of 2 pi, radians."""
     ended: Float[Numbers, " angles"]
-    """The same at the assembled pose a full turn of the input later."""
+    """The same where the assembled pose is again, a full turn of the input later; `begun` where that is a length."""
 
 
 class Line(NamedTuple):
-    """The nodes, and what they say."""
+    """What discriminants and unknown angles at the nodes say of the motion along them."""
 
     signs: Float[Numbers, "groups 1"]
     """The sign of the branch of every group."""

@@ -148,11 +148,11 @@ class _AtNodes(NamedTuple):
     """Where inputs are among the nodes of a line, and the unknown angles there."""
 
     turns: Float[Array, " poses"]
-    """Full turns of the input, down to the line."""
+    """Number of full turns by which an input is beyond the turn of the line; 0 where the input is a length."""
     interval: Int[Array, " poses"]
-    """The interval between two nodes."""
+    """Number of the interval between two nodes in which the input is."""
     distance: Float[Array, " poses"]
-    """From its lower node, counted in nodes."""
+    """Distance of the input from the lower node of its interval, over the spacing of the nodes."""
     nearby: Float[Array, "angles poses"]
     """The unknown angles at the lower node, unwrapped along the line."""
 

@@ -13,7 +13,7 @@ others must not have:
 | `mobility.consistency` | as `least_residual` | the same in numpy, with a cutoff from the noise of the frames |
 | `dimensions.placement` | its own | unknowns are positions of features, not coordinates of joints |
 | `design.least_squares` | Nielsen's rule, within bounds | unknowns are dimensions; a residual is a whole sweep |
-| `mobility.assembly_modes` | steps are shortened | within the freedoms of closed loops, towards given places |
+| `mobility.other_modes` | steps are shortened | within the freedoms of closed loops, towards given places |
 | `mechanism.inverse.step` | rises after a poor step | closure first, then targets, more or fewer than the freedoms |
 | `effects.rank_deficient_fit` | rises after a refused step | unknowns that the measurements do not tell stay at rest |
 | `joints.screws.misfit` | cutoff at 1e-10 | one chain that is to make a given displacement: there is no loop |

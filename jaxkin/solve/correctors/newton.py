@@ -30,11 +30,16 @@ class _Iterate(NamedTuple):
     """The carry of the iteration: the last state whose closure is known, and the next one."""
 
     count: Array
+    """Number of closures that were evaluated."""
     state: State
+    """The last state whose closure is known."""
     closure: Closure
+    """That of `state`; its norms are infinite before the first step."""
     extrapolated: Float[Array, " poses"]
-    """Residual norm of `trial`, extrapolated from the last two; infinite where convergence is not quadratic."""
+    """Residual norm of `trial`, extrapolated from those of the last two states whose closure is known; infinite where
+    convergence is not quadratic, or where nothing is extrapolated."""
     trial: State
+    """The next state: a step from `state`."""
     led_away: Bool[Array, " poses"]
     """Whether a step has raised the residual norm of a pose that was closed: the pose is singular."""
 
