@@ -180,8 +180,8 @@ def _hold_seated(trials: _Trials, seats: list[Inference], trial: _Trial) -> _Hel
         new = seats_of(trial.mechanism, inexact, bearings)
         if not new:
             break
-        seats = [*seats, *new]
-        other = trials.make(seats)
+        more = [*seats, *new]
+        other = trials.make(more)
         # seats may take nothing of use; that slides can be stopped then which were not before is no objection; where
         # more is free with them, they changed which parts others hold, and stops would hide that
         fewer = other.before_stops <= trial.before_stops
@@ -193,7 +193,7 @@ def _hold_seated(trials: _Trials, seats: list[Inference], trial: _Trial) -> _Hel
         )
         if not (same or (kept and useful_freedoms(other.mechanism))):
             break
-        trial = other
+        seats, trial = more, other
     return seats, trial
 
 
