@@ -89,8 +89,9 @@ def proposals(
     joined to many others. `drive` are coordinates that are driven, by default those which leave nothing but idle
     motions. One freedom comes before several, those of wheels not counted, more joints that move before fewer, and what
     cannot move comes last.
-    Several fixed parts that still most of what moves with one are no brackets on a wall, but what the machine moves:
-    they come after single ones.
+    Of choices that are alike otherwise the heaviest body is fixed: frames weigh more than what they carry.
+    Several fixed parts come after single ones unless they leave one freedom, and most of what moves with one: others
+    are no brackets on a wall, but what the machine moves, as the hook and the wheels of a crane.
     `progress(done, total)` is called after each choice that was tried.
 
     Raises ValueError for names that do not exist, and for an assembly without parts.
@@ -100,10 +101,10 @@ def proposals(
     solids = {part.name: part for part in assembly.parts}
     if not solids:
         raise ValueError(f"{assembly.source}: there are no parts, and nothing to fix")
-    base = max(solids, key=lambda name: _extent(solids[name]))
+    base = max(solids, key=lambda name: _size(solids[name]))
     mechanism = assembly.mechanism(fixed=[base])
     if (tied := _tied(mechanism)) and base not in tied:
-        base = max(tied, key=lambda name: _extent(solids[name]))
+        base = max(tied, key=lambda name: _size(solids[name]))
         mechanism = assembly.mechanism(fixed=[base])
     others = [part for part in _likely(mechanism, solids) if part not in mechanism.fixed]
     choices = [[part] for part in others[: TRIED - 1]] + _with_ends(mechanism, solids)
@@ -114,9 +115,13 @@ def proposals(
             progress(done, 1 + len(choices))
     most = max(each.moving for each in found if len(each.fixed) == 1)
 
-    def rank(each: Proposal) -> tuple[bool, bool, int, int, int]:
-        stills = len(each.fixed) > 1 and each.moving < MIN_MOVING * most
-        return bool(each.problem), stills, each.freedoms - len(each.wheels), len(each.fixed), -each.moving
+    owner = body_of_parts(mechanism.bodies)
+
+    def rank(each: Proposal) -> tuple[bool, bool, int, int, int, float]:
+        several, useful = len(each.fixed) > 1, each.freedoms - len(each.wheels)
+        stills = several and (useful > 1 or each.moving < MIN_MOVING * most)
+        weight = sum(abs(solids[part].volume) for part in mechanism.bodies[owner[each.fixed[0]]])
+        return bool(each.problem) or not each.moving, stills, useful, len(each.fixed), -each.moving, -weight
 
     return tuple(sorted(found, key=rank))
 
@@ -148,19 +153,31 @@ def _with_ends(mechanism: Mechanism, solids: Mapping[str, Part]) -> list[list[st
     turning = {owner[part] for part in wheels_of(mechanism).values()}
     ends = [body for body, others in around.items() if len(others) == 1 and body != owner[mechanism.fixed[0]]]
     ends = [body for body in ends if body not in turning]
-    parts = [max(mechanism.bodies[body], key=lambda part: _extent(solids[part])) for body in ends]
-    base = max(mechanism.fixed, key=lambda part: _extent(solids[part]))
+    parts = [_heaviest(mechanism.bodies[body], solids) for body in ends]
+    base = _heaviest(mechanism.fixed, solids)
     alone = [parts] if len(parts) > 1 else []
     return [[base, *parts], *alone] if parts and len(around) > 2 else []
 
 
 def _likely(mechanism: Mechanism, solids: Mapping[str, Part]) -> list[str]:
-    """Find the largest part of each body, those of large and well connected bodies first."""
+    """Find the heaviest part of each body, those of large and well connected bodies first."""
     owner = body_of_parts(mechanism.bodies)
     joined = Counter(owner[part] for joint in mechanism.all_joints if joint.freedoms for part in joint.parts)
-    largest = {body: max(parts, key=lambda part: _extent(solids[part])) for body, parts in mechanism.bodies.items()}
-    order = sorted(largest, key=lambda body: joined[body] * _extent(solids[largest[body]]), reverse=True)
-    return [largest[body] for body in order]
+    size = {body: max(_extent(solids[part]) for part in parts) for body, parts in mechanism.bodies.items()}
+    order = sorted(size, key=lambda body: joined[body] * size[body], reverse=True)
+    return [_heaviest(mechanism.bodies[body], solids) for body in order]
+
+
+def _heaviest(parts: Sequence[str], solids: Mapping[str, Part]) -> str:
+    """Find the heaviest part of a body: the longest may be a screw."""
+    return max(parts, key=lambda part: (abs(solids[part].volume), _extent(solids[part])))
+
+
+def _size(part: Part) -> tuple[float, float]:
+    """Measure how large a part is: long, and not thin as a rod or a long screw, which fastens nothing while it is
+    fixed; shells without a volume come by their length."""
+    extent = _extent(part)
+    return extent * abs(part.volume) ** (1 / 3), extent
 
 
 def _extent(part: Part) -> float:

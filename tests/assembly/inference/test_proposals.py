@@ -1,5 +1,7 @@
 """What may be fixed and driven, found by trying."""
 
+from itertools import pairwise
+
 import pytest
 
 import jaxkin as jk
@@ -69,3 +71,37 @@ def test_several_fixed_parts_that_still_most_of_what_moves_come_after_single_one
     assert found[0].fixed == ("base",)
     several = next(each for each in found if len(each.fixed) > 1)
     assert several.freedoms < found[0].freedoms  # it would come first by its freedoms
+
+
+def test_the_ends_of_an_open_chain_are_no_brackets_on_a_wall():
+    """Fixed at both ends, five hinges in a row leave fewer freedoms, and all of them move."""
+    places = [(0.0, 0.0), (30.0, 40.0), (80.0, 30.0), (120.0, 70.0), (160.0, 20.0), (190.0, 60.0)]
+    base = part("base", block((-60, -60, -40), (60, 60, -20)), pin(5.0, -20, 10))
+    links = []
+    for k, (one, other) in enumerate(pairwise(places)):
+        low = 10.0 * k
+        eye, low_corner, high_corner = ring(5.0, 9.0, low, low + 10, one), min(one, other), max(one, other)
+        bar = block((low_corner[0] + 8, low_corner[1] - 2, low), (high_corner[0] - 8, low_corner[1] + 2, low + 10))
+        links.append(part(f"link {k}", eye, bar, pin(5.0, low, low + 20, other)))
+    found = assembly(base, *links).proposals()
+    assert found[0].fixed == ("base",)
+    several = next(each for each in found if len(each.fixed) > 1)
+    assert 1 < several.freedoms < found[0].freedoms and several.moving == found[0].moving  # it came first by both
+
+
+def test_the_longest_part_of_a_body_is_not_fixed_where_it_is_a_screw():
+    """By itself it fastens nothing, so that fixed alone it would leave its plate free."""
+    bolts = [(40.0, 0.0), (-40.0, 0.0)]
+    base = part(
+        "base",
+        block((-34, -30, 0), (34, 30, 50)),
+        *(ring(2.6, 8.0, 0, 50, at) for at in bolts),
+        pin(5.0, 50, 75),
+    )
+    plate = part("plate", *(ring(2.6, 8.0, -50, 0, at) for at in bolts), block((-34, -30, -50), (34, 30, 0)))
+    screws = [part(f"screw {k}", pin(2.5, -100, 50, at), pin(4.5, 50, 54, at)) for k, at in enumerate(bolts)]
+    nuts = [part(f"nut {k}", ring(2.5, 5.0, -54, -50, at)) for k, at in enumerate(bolts)]
+    lever = part("lever", ring(5.0, 9.0, 50, 75), block((8, -2, 50), (30, 2, 75)))
+    found = assembly(*screws, *nuts, base, plate, lever).proposals()
+    assert found[0].fixed == ("base",) and found[0].freedoms == 1
+    assert not {name for each in found for name in each.fixed} & {each.name for each in screws}
