@@ -6,6 +6,7 @@ from collections.abc import Collection, Sequence
 from typing import NamedTuple
 
 from jaxkin.assembly.inference.ball_joints import ball_joints
+from jaxkin.assembly.inference.ball_studs import held_studs
 from jaxkin.assembly.inference.bearing_joints import bearing_bodies, bearing_joints
 from jaxkin.assembly.inference.bearings import outside_of
 from jaxkin.assembly.inference.carriages import carriages
@@ -224,6 +225,7 @@ def _take_joints_between_bodies(known: Known, fastening: Collection[str]) -> _St
     guided = guided_on_faces(known)
     joined += [*set_on_pins(known, joined, guided), *guided]
     known.take(floating(known, joined))
+    known.take(held_studs(known, joined, fastening))
     known.take([each.inference for each in joined if not each.replaces_slide and each not in turning])
     known.take(slot_joints(known))
     known.take(loose_slides(known))

@@ -1,0 +1,70 @@
+"""Studs of balls, and rod ends on their rods: a ball turns about every axis through its middle already."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+
+import numpy as np
+
+from jaxkin.assembly.inference.axes import MAX_OFFSET
+from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.sockets import Socket
+from jaxkin.assembly.inference.stopped_joint import StoppedJoint
+from jaxkin.geometry.pose import Vector
+from jaxkin.joints.evidence import Evidence, EvidenceKind
+from jaxkin.joints.kinds import JointKind
+
+_SPHERES = ("sphere", "sphere")
+"""Surfaces of an exact contact of a ball with its socket."""
+
+
+def held_studs(known: Known, joined: Sequence[StoppedJoint], fastening: Collection[str]) -> list[Inference]:
+    """Join the two bodies of a hinge with play about an axis through the middle of a ball, where this hinge and the
+    ball are all that ties one of them.
+
+    That body would turn between the two, and move nothing else. Studs and bolts are screwed or pressed into what they
+    carry the ball for, and rod ends onto their rods. The bolt through the ball of a rod end does not slide either: its
+    nut is not drawn.
+    """
+    body = known.body
+    ties = {frozenset(body[part] for part in tie) for tie in (*known.touching, *known.jointed)}
+    ties |= {frozenset(body[part] for part in pair.parts) for pair in (*known.axes, *known.tapped)}
+    result = []
+    for each in joined:
+        joint = each.inference.joint
+        if joint is None or each.replaces_slide:
+            continue
+        point, axis = joint.frames_1[0][:3, 3], joint.frames_1[0][:3, 2]
+        owners = {body[part] for part in joint.parts}
+        for socket in known.sockets:
+            around = {body[part] for part in socket.parts}
+            between = owners & around
+            if len(owners) != 2 or len(around) != 2 or len(between) != 1 or not _is_on(socket, point, axis):
+                continue
+            (owner,) = between
+            if joint.kind is not JointKind.REVOLUTE and not _is_bolted(known, socket, joint.parts, fastening):
+                continue
+            if {other for tie in ties if owner in tie for other in tie} == owners | around and _rolls(known, around):
+                text = f"{joint.parts[0]!r} and {joint.parts[1]!r} have an axis through the middle of the ball of "
+                text += f"{socket.ball.part!r}, about which that turns in {socket.hole.part!r} already"
+                evidence = Evidence(EvidenceKind.FASTENER, each.inference.evidence.sizes, text)
+                result.append(Inference(joint.parts, evidence))
+    return result
+
+
+def _is_bolted(known: Known, socket: Socket, parts: Sequence[str], fastening: Collection[str]) -> bool:
+    """Tell whether one of two parts is the bolt through the hole of a ball."""
+    through = {pair.one.part for pair in known.axes if pair.other.part == socket.ball.part and not pair.virtual}
+    return bool(through & {*parts} & {*fastening})
+
+
+def _is_on(socket: Socket, point: Vector, axis: Vector) -> bool:
+    """Tell whether an axis goes through the middle of a ball."""
+    return bool(np.linalg.norm(np.cross(socket.ball.centre - point, axis)) <= MAX_OFFSET * socket.ball.radius)
+
+
+def _rolls(known: Known, owners: set[str]) -> bool:
+    """Tell whether two bodies meet at a ball and its socket only."""
+    touching = [each for each in known.contacts if {known.body[part] for part in each.parts} == owners]
+    return all(each.contact_state.kinds == _SPHERES for each in touching)
