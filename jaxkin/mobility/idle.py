@@ -25,6 +25,9 @@ from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.body_graph import BodyGraph, Constraints, Twists
 from jaxkin.mobility.loop_freedoms import LoopFreedoms
 
+_TOLD = 5
+"""Parts of an idle motion, and of what holds them, that a line names."""
+
 
 @dataclass(frozen=True)
 class IdleMotion:
@@ -41,7 +44,13 @@ class IdleMotion:
 
     def __str__(self) -> str:
         verb = self.kind if len(self.parts) == 1 else self.kind.removesuffix("s") + " together"
-        return f"{' + '.join(self.parts)} {verb} between {' and '.join(self.between)}"
+        return f"{_told(self.parts, ' + ')} {verb} between {_told(self.between, ' and ')}"
+
+
+def _told(parts: Sequence[str], comma: str) -> str:
+    """Write the names of parts, of many the first ones: a body of a machine has dozens."""
+    more = len(parts) - _TOLD
+    return comma.join(parts if more <= 0 else (*parts[:_TOLD], f"{more} more"))
 
 
 @dataclass(frozen=True, eq=False)

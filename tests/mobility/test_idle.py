@@ -11,7 +11,7 @@ from jaxkin.joints.pairs import cylindrical, fixed, planar, prismatic, revolute,
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mobility.body_graph import BodyGraph
-from jaxkin.mobility.idle import IdleMotions
+from jaxkin.mobility.idle import IdleMotion, IdleMotions
 from jaxkin.mobility.loop_freedoms import loop_freedoms
 from reference import catalogue
 from reference.cassie import cassie_leg
@@ -284,3 +284,8 @@ def test_the_body_that_carries_the_loops_is_known():
     mechanism = leg()
     (found,) = loop_freedoms(mechanism.linkage)
     assert BodyGraph(mechanism.linkage, found).carrier == "hip"
+
+
+def test_of_many_parts_that_move_idly_together_the_first_are_named():
+    motion = IdleMotion(tuple(f"screw {k}" for k in range(40)), "slides", ("base", "lid"), ())
+    assert str(motion).endswith("screw 4 + 35 more slide together between base and lid")
