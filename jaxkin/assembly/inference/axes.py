@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 
-from jaxkin.assembly.inference.bores import Bore, shared
+from jaxkin.assembly.inference.bores import NEAR_LENGTH, Bore, shared
 
 MAX_TILT = 2e-3
 """Radians between the axes of a pin and its hole: a tenth of a millimetre over the length of a finger."""
@@ -91,6 +91,10 @@ class CommonAxis:
 def common_axes(bores: Sequence[Bore], clearance: float | None = None) -> list[CommonAxis]:
     """Find all pairs of bores of different parts that share an axis; pins with a sleeve between are not in the hole.
 
+    Equal bores with nothing in them have no pin near to both: one that is in far lugs of one of them only, such as the
+    pin of the other side of a frame, leaves these empty. A thinner pin that runs through both, and is in a hole of its
+    own size elsewhere, fills them: they are room for its head, or for its nut.
+
     `clearance` is the largest radial clearance of a pin in its hole, in the unit of the file; by default MAX_CLEARANCE
     times the radius of the hole.
     """
@@ -99,9 +103,40 @@ def common_axes(bores: Sequence[Bore], clearance: float | None = None) -> list[C
     near = _coaxial(bores, clearance)
     pins = [each for each in near if each.one.hole != each.other.hole and _fits(each, clearance)]
     pins = [each for each in pins if not _sleeved(each, pins)]
-    filled = {id(bore) for each in pins for bore in (each.one, each.other)}
+    filling: dict[int, list[Bore]] = {}
+    for each in pins:
+        filling.setdefault(id(each.other), []).append(each.one)
     empty = [each for each in near if each.one.hole and each.other.hole and _equal(each)]
-    return [*pins, *(each for each in empty if not {id(each.one), id(each.other)} & filled)]
+    empty = [each for each in empty if not _is_filled(each, filling)]
+    return [*pins, *_not_run_through(empty, pins)]
+
+
+def _is_filled(pair: CommonAxis, filling: Mapping[int, Sequence[Bore]]) -> bool:
+    """Tell whether a pin is in one of two bores, near to the other one."""
+    for bore, other in ((pair.one, pair.other), (pair.other, pair.one)):
+        for each in filling.get(id(bore), ()):
+            if shared_length(other, each) > -MAX_AXIAL_GAP * max(bore.radius, other.radius):
+                return True
+    return False
+
+
+def _not_run_through(pairs: Sequence[CommonAxis], found: Sequence[CommonAxis]) -> list[CommonAxis]:
+    """Leave out bores without a pin through both of which a pin of a third part runs, one of those that were found in a
+    hole; it may begin at the floor of a counterbore, where its head lies."""
+    pins = list({id(each.one): each.one for each in found if not (each.virtual or each.threaded)}.values())
+    if not pins or not pairs:
+        return [*pairs]
+    points = np.array([each.point for each in pins])
+
+    def is_run_through(pair: CommonAxis) -> bool:
+        offset, axis = points - pair.one.point, pair.one.axis
+        apart = np.linalg.norm(offset - np.outer(offset @ axis, axis), axis=1)
+        near = [pins[k] for k in np.flatnonzero(apart <= NEAR_LENGTH * pair.one.radius).tolist()]
+        near = [each for each in near if each.part not in pair.parts and each.on_axis_of(pair.one)]
+        lengths = [sorted(shared_length(bore, each) / each.radius for bore in (pair.one, pair.other)) for each in near]
+        return any(least >= -MIN_ENGAGED and most > MIN_ENGAGED for least, most in lengths)
+
+    return [pair for pair in pairs if not (pair.virtual and is_run_through(pair))]
 
 
 def far_axes(bores: Sequence[Bore], near: Sequence[CommonAxis]) -> list[CommonAxis]:
@@ -122,7 +157,8 @@ def far_axes(bores: Sequence[Bore], near: Sequence[CommonAxis]) -> list[CommonAx
         if far:
             result.append(pair)
     filled = {id(bore) for pair in (*near, *result) if not pair.virtual for bore in (pair.one, pair.other)}
-    return [pair for pair in result if not pair.virtual or not {id(pair.one), id(pair.other)} & filled]
+    result = [pair for pair in result if not pair.virtual or not {id(pair.one), id(pair.other)} & filled]
+    return _not_run_through(result, near)
 
 
 def _coaxial(bores: Sequence[Bore], clearance: float | None) -> list[CommonAxis]:

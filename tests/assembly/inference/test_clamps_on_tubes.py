@@ -75,6 +75,23 @@ def test_a_pin_across_a_telescope_holds_it(seed, hole):
     assert hole != "none" or kind_of(mechanism, "base", "inner") == "prismatic"
 
 
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(("radius", "away", "held"), [(6.2, 0.0, True), (5.9, 0.0, False), (6.2, 3.0, False)])
+def test_holes_of_one_size_in_line_across_a_telescope_hold_it_without_their_pin(radius, away, held, seed):
+    """It slides where they are not in line, or of two sizes. A pin of the other leg of the frame fills none of them."""
+    walls = [block((24, -30, -100), (30, 30, 100)), block((-30, -30, -100), (-24, 30, 100))]
+    walls += [block((-24, 24, -100), (24, 30, 100)), block((-24, -30, -100), (24, -24, 100))]
+    at = (-50.0, 0.0)
+    eyes = [across(ring(6.2, 8.0, low, low + 6, at)) for low in (-30, 24, 250)]
+    base = part("base", *walls, *eyes, block((30, 30, -100), (260, 40, 100)), PIVOT)
+    own = across(ring(radius, 8.0, -23.8, 23.8, (at[0] + away, 0.0)))
+    inner = part("inner", block((-23.8, -23.8, -60), (23.8, 23.8, 160)), own)
+    beyond = part("pin", across(pin(6.0, 240, 260, at), pin(10.0, 260, 264, at)))
+    body, mechanism = of(seed, base, inner, beyond, LEVER)
+    assert (body["inner"] == body["base"]) == held
+    assert held or kind_of(mechanism, "base", "inner") == "prismatic"
+
+
 def half_slot(at):
     """The end of a slot, a half of a hole."""
     (surface, triangles) = ring(6.2, 8.0, -23.8, 23.8, at)[2]
