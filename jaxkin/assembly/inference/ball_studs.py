@@ -35,7 +35,8 @@ def held_studs(known: Known, joined: Sequence[StoppedJoint], fastening: Collecti
         joint = each.inference.joint
         if joint is None or each.replaces_slide:
             continue
-        point, axis = joint.frames_1[0][:3, 3], joint.frames_1[0][:3, 2]
+        place = np.asarray(joint.frames_1[0])
+        point, axis = place[:3, 3], place[:3, 2]
         owners = {body[part] for part in joint.parts}
         for socket in known.sockets:
             around = {body[part] for part in socket.parts}

@@ -227,7 +227,7 @@ def _take_joints_between_bodies(known: Known, fastening: Collection[str]) -> _St
     known.take(floating(known, joined))
     known.take(held_studs(known, joined, fastening))
     known.take([each.inference for each in joined if not each.replaces_slide and each not in turning])
-    known.take(slot_joints(known))
+    known.take(slot_joints(known, joined))
     known.take(loose_slides(known))
     known.take(carriages(known))
     return _StoppedJoints(joined, guided)

@@ -12,6 +12,7 @@ from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.bores import NEAR_LENGTH, Bore, near_axis
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.measured import Measured
+from jaxkin.assembly.inference.slotted_pins import is_slot_end
 from jaxkin.assembly.inference.sockets import sockets
 from jaxkin.assembly.inference.stop_faces import stands_across
 from jaxkin.contacts.contact import Contact, Contacts
@@ -80,6 +81,14 @@ class Known:
         self.sockets = [each for each in sockets(self.parts, clearance) if frozenset(each.parts) not in ignored]
         self.axes = [pair for pair in found if not pair.tapped and not self._is_neck(pair)]
         self.tapped = [pair for pair in found if pair.tapped]
+
+    @cached_property
+    def slot_ends(self) -> set[int]:
+        """Numbers (`id`) of the common axes of pins that are drawn at the end of their slot: they turn and slide
+        there."""
+        slotted = self.measured.slotted_pins(self.clearance)
+        ends = [pair for pair in self.axes if not pair.virtual]
+        return {id(pair) for pair in ends if is_slot_end(pair, slotted, self.bores[pair.other.part])}
 
     def bores_on(self, part: str, axis: Bore) -> list[Bore]:
         """Find the bores and pins of a part that are on the axis of another one, to `NEAR_ANGLE` and `NEAR_LENGTH`."""

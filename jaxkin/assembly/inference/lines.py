@@ -54,7 +54,8 @@ class Line(NamedTuple):
 
 def lines(known: Known, axes: Sequence[CommonAxis] | None = None) -> list[Line]:
     """Find the bodies that have axes in common, but those that joints join already."""
-    axes = [pair for pair in known.axes if not pair.threaded] if axes is None else axes
+    if axes is None:
+        axes = [pair for pair in known.axes if not pair.threaded and id(pair) not in known.slot_ends]
     body, between, jointed = known.body, {}, known.jointed
     for pair in _neighbours(axes, body):
         owners = frozenset(body[part] for part in pair.parts)

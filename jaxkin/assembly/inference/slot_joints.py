@@ -10,29 +10,35 @@ from jaxkin.assembly.inference.axes import MIN_ENGAGED
 from jaxkin.assembly.inference.bores import shared
 from jaxkin.assembly.inference.inference import Inference, offset_told
 from jaxkin.assembly.inference.known import Known, Pair
+from jaxkin.assembly.inference.lines import lines
 from jaxkin.assembly.inference.one_screw import THROUGH
-from jaxkin.assembly.inference.slotted_pins import SlottedPin
+from jaxkin.assembly.inference.slotted_pins import SlottedPin, round_ends
 from jaxkin.assembly.inference.stop_faces import ACROSS, MAX_AXIAL_PLAY, WIDER, play, stands_across
+from jaxkin.assembly.inference.stopped_joint import StoppedJoint
 from jaxkin.contacts.tolerance import NEAR_SLOT
 from jaxkin.geometry.pose import frame
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.joints.joint import Joint
+from jaxkin.joints.kinds import JointKind
 from jaxkin.topology.components import connected
 
 
-def slot_joints(known: Known) -> list[Inference]:
+def slot_joints(known: Known, joined: Sequence[StoppedJoint] = ()) -> list[Inference]:
     """Infer joints of two bodies of which one has a pin with play in a slot of the other.
 
     Exact contacts of the two are faces across the pin, if there are any: all others say themselves what is left. With
     such faces, or with faces that leave little play along the pin, it slides in the slot and turns; two pins beside
     each other do not turn. Without them, it slides along its axis, too, and tilts along the slot, as exact contacts
     with the walls have it. A pin that does not touch what has the slot has no more play than what nearly touches.
-    Bodies with a common axis are left to that. A screw that clamps what has the slot, for adjusting, guides nothing.
+    Bodies with a common axis are left to that, but for pins at the end of their slot. Where hinges along the pin keep
+    both bodies level, `joined` or known, it does not slide along its axis either, and in a slot with round ends may
+    have the play of round holes. A screw that clamps what has the slot, for adjusting, guides nothing.
     """
     body, every = known.body, known.measured.slotted_pins(known.clearance)
-    others = {*known.jointed, *(frozenset(body[part] for part in each.parts) for each in (*known.axes, *known.tapped))}
+    axes = [pair for pair in (*known.axes, *known.tapped) if id(pair) not in known.slot_ends]
+    others = {*known.jointed, *(frozenset(body[part] for part in each.parts) for each in axes)}
     found: dict[Pair, list[SlottedPin]] = {}
     for each in every:
         owners = frozenset(body[part] for part in (each.pin.part, each.part))
@@ -49,7 +55,7 @@ def slot_joints(known: Known) -> list[Inference]:
         pins.sort(key=lambda each: each.clearance)
         if owners in others or not _are_parallel(pins) or _may_clamp(known, pins[0]):
             continue
-        if (made := _made(known, pins, owners in lying)) is not None:
+        if (made := _made(known, pins, owners in lying, joined)) is not None:
             result.append(made)
     return result
 
@@ -112,7 +118,7 @@ def _has_two_heads(known: Known, slotted: SlottedPin) -> bool:
     return any(end < low + pin.half for end in ends) and any(end > high - pin.half for end in ends)
 
 
-def _made(known: Known, pins: Sequence[SlottedPin], lies: bool) -> Inference | None:
+def _made(known: Known, pins: Sequence[SlottedPin], lies: bool, joined: Sequence[StoppedJoint]) -> Inference | None:
     """Make the joint of two bodies by the pins that one has in slots of the other, the tightest first; they may lie on
     each other on faces across the pins. None where the pin is too loose for a joint without such faces."""
     first, pin = pins[0], pins[0].pin
@@ -121,10 +127,14 @@ def _made(known: Known, pins: Sequence[SlottedPin], lies: bool) -> Inference | N
     text = f"the pin {pin.part!r} of radius {pin.radius:.4g} has a clearance of {first.clearance:.2g}"
     text += f"{offset_told(first.offset, pin.radius)} between two walls of {first.part!r}"
     sizes = [("radius", pin.radius), ("clearance", first.clearance), ("offset", first.offset)]
-    room = None if lies else _room(known, first)
-    held = lies or (room is not None and room <= MAX_AXIAL_PLAY * pin.radius)
-    if not lies and first.clearance > NEAR_SLOT * pin.radius:
+    level = _are_level(known, first, joined)
+    room = None if lies or level else _room(known, first)
+    held = lies or level or (room is not None and room <= MAX_AXIAL_PLAY * pin.radius)
+    milled = level and bool(round_ends(first, known.bores[first.part]))
+    if not (lies or milled) and first.clearance > NEAR_SLOT * pin.radius:
         return None
+    if level and not lies:
+        text += "; hinges along it keep both level"
     if room is not None and held:
         text += f"; faces leave a play of {room:.2g} along it"
         sizes.append(("play", room))
@@ -141,6 +151,23 @@ def _made(known: Known, pins: Sequence[SlottedPin], lies: bool) -> Inference | N
         wall, centre = frame(first.middle, first.normal), frame(first.middle, pin.axis)
         joint = pairs.contact_joint(name, first.part, pin.part, state="b", frames=[wall, centre])
     return Inference.of(joint, Evidence(EvidenceKind.CLEARANCE, tuple(sizes), text))
+
+
+def _are_level(known: Known, slotted: SlottedPin, joined: Sequence[StoppedJoint]) -> bool:
+    """Tell whether joints whose axes are along a pin, or slides across it, lead from its body to that of its slot, so
+    that these do not move along it."""
+    body, axis, edges = known.body, slotted.pin.axis, []
+    every = (*known.found, *(each.inference for each in joined))
+    for joint in (each.joint for each in every if each.joint is not None):
+        tilt = float(np.linalg.norm(np.cross(joint.frames_1[0][:3, 2], axis)))
+        across = joint.kind is JointKind.PRISMATIC and tilt > 1 - ACROSS
+        if (joint.kind is JointKind.REVOLUTE and tilt < ACROSS) or across:
+            edges.append(tuple(body[part] for part in joint.parts))
+    for line in lines(known):
+        if line.is_kept and np.linalg.norm(np.cross(line.first.one.axis, axis)) < ACROSS:
+            edges.append(tuple(line.owners))
+    owners = {body[slotted.pin.part], body[slotted.part]}
+    return any(owners <= group for group in connected({*body.values()}, edges))
 
 
 def _room(known: Known, slotted: SlottedPin) -> float | None:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.assembly.inference.axes import MAX_CLEARANCE, MAX_OFFSET, MIN_ENGAGED
+from jaxkin.assembly.inference.axes import MAX_CLEARANCE, MAX_OFFSET, MIN_ENGAGED, CommonAxis
 from jaxkin.assembly.inference.bores import MAX_HOLE_ARC, SAME_LENGTH, Bore, merged, opening_of, shared
 from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.geometry.part import Face, Part
@@ -87,6 +87,36 @@ def slotted_pins(
     return result
 
 
+def is_slot_end(pair: CommonAxis, slotted: Sequence[SlottedPin], bores: Sequence[Bore]) -> bool:
+    """Tell whether a pin is in the half-round end of a slot that is closed on both ends: it is drawn at the end of its
+    stroke. `bores` are those of the part that has the hole.
+
+    A hook is open on the other side, and turns on its pin.
+    """
+    hole = pair.other
+    for each in slotted:
+        if each.pin is pair.one and each.part == hole.part and abs(each.half - hole.radius) <= MAX_OFFSET * hole.radius:
+            ends = [abs(float((end.point - hole.point) @ each.along)) for end in round_ends(each, bores)]
+            if any(away > 2 * MIN_SLOT * hole.radius for away in ends):
+                return True
+    return False
+
+
+def round_ends(slotted: SlottedPin, bores: Sequence[Bore]) -> list[Bore]:
+    """Find the round ends of a slot, as a mill leaves them: half holes as wide as the slot, in the middle between its
+    walls. `bores` are those of the part that has the slot."""
+    middle = slotted.pin.point @ slotted.normal
+    slack = MAX_OFFSET * slotted.half
+    return [
+        each
+        for each in bores
+        if each.hole
+        and abs(each.radius - slotted.half) <= slack
+        and np.linalg.norm(np.cross(each.axis, slotted.pin.axis)) <= ACROSS
+        and abs(float(each.point @ slotted.normal - middle)) <= slotted.offset + slack
+    ]
+
+
 def _walls_of(part: Part) -> _Walls:
     faces = [(face, face.surface) for face in part.faces if isinstance(face.surface, Plane)]
     normals, points = (
@@ -109,20 +139,23 @@ def _between(pin: Bore, part: str, walls: _Walls, clearance: float | None) -> li
         loose = half - pin.radius
         if not -SAME_LENGTH * half <= loose <= widest - pin.radius or offset > max(loose, 0.0) + MAX_OFFSET * half:
             continue
-        span = _beside(pin, walls.normals[one], walls.faces[one], walls.faces[other], 2 * half * MIN_SLOT)
+        slack = max(loose, 0.0) + MAX_OFFSET * half  # of a pin at the end of its slot
+        span = _beside(pin, walls.normals[one], (walls.faces[one], walls.faces[other]), 2 * half * MIN_SLOT, slack)
         if span is not None:
             found.append(SlottedPin(pin, part, walls.normals[one], float(half), float(offset), span))
     return found
 
 
-def _beside(pin: Bore, normal: Vector, one: Face, other: Face, least: float) -> tuple[float, float] | None:
-    """Find where along its axis a pin is beside both of two walls; None where it is not, or where these are beside each
-    other over less than some length."""
+def _beside(
+    pin: Bore, normal: Vector, walls: tuple[Face, Face], least: float, slack: float
+) -> tuple[float, float] | None:
+    """Find where along its axis a pin is beside both of two walls, or within `slack` of their ends; None where it is
+    not, or where these are beside each other over less than some length."""
     across = np.column_stack([np.cross(normal, pin.axis), pin.axis])
-    places = [(face.triangles.reshape(-1, 3) - pin.point) @ across for face in (one, other)]
+    places = [(face.triangles.reshape(-1, 3) - pin.point) @ across for face in walls]
     low = np.max([each.min(axis=0) for each in places], axis=0)
     high = np.min([each.max(axis=0) for each in places], axis=0)
-    if not low[0] < 0 < high[0] or high[0] - low[0] < least:
+    if not low[0] < slack or not -slack < high[0] or high[0] - low[0] < least:
         return None
     height = (float(low[1]), float(high[1]))
     spans = merged(pin.spans)

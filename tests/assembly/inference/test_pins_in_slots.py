@@ -132,3 +132,37 @@ def test_a_pin_with_much_play_between_walls_that_it_does_not_lie_on_is_in_no_slo
     drawn = yoke(0.5, 20.5, 3.2)
     mechanism = anywhere(drawn, seed).mechanism(fixed=["base"], rigid=[["crank", "throw"]])
     assert not {SLOT, "contact b"} & {each.kind for each in mechanism.all_joints}
+
+
+def round_end(x, sign, radius=4.1):
+    """The half-round end of a slot along x, at a place of it, between two heights."""
+    faces = ring(radius, 9.0, 6, 11, (x, 40.0))
+    round_ones = [face for face in faces if getattr(face[0], "side", 1) < 0]
+    return [(surface, each[sign * (each.mean(axis=1)[:, 0] - x) > 0]) for surface, each in round_ones]
+
+
+def levers(end=-20.0, far=34.0, low=0.0):
+    """Two levers that hinge on a base with play: a pin of the one, 0.7 loose, is in a round-ended slot of the other
+    `low` above it, from `end` to `far` along x; the pin is at 0."""
+    base = part(
+        "base",
+        block((-60, -60, -10), (90, 90, -0.2)),
+        *(pin(5.0, -10, 5.2), pin(8.0, 5.2, 5.9)),
+        *(pin(8.0, -0.2, 5.8, (60.0, 40.0)), pin(5.0, 5.8, 11.2, (60.0, 40.0)), pin(8.0, 11.2, 13, (60.0, 40.0))),
+    )
+    driver = part("driver", ring(5.2, 9.0, 0, 5), block((-4, 9, 0), (4, 36, 5)), pin(3.4, 0, 14, (0.0, 40.0)))
+    walls = [block((end, *sides), (far, *ends)) for sides, ends in (((44.1, 6), (50, 11)), ((30, 6), (35.9, 11)))]
+    ends = [round_end(end, -1), round_end(far, 1), block((far + 6, 30, 6), (52, 50, 11))]
+    return assembly(base, driver, part("slotted", ring(5.2, 8.0, 6, 11, (60.0, 40.0)), *walls, *ends))
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("end", [-20.0, 0.2, -0.5])
+def test_a_loose_pin_does_not_slide_along_its_axis_where_hinges_keep_it_level(end, seed):
+    """Nothing is between the two levers that would stop such a slide. At the end of its stroke the pin is in a half of
+    a hole, which it leaves: a hinge there would lock both levers."""
+    mechanism = anywhere(levers(end), seed).mechanism(fixed=["base"])
+    assert kind_of(mechanism, "driver", "slotted") == SLOT
+    assert mechanism.mobility().useful == 1
+    (joint,) = (each for each in mechanism.all_joints if each.kind == SLOT)
+    assert "hinges along it keep both level" in joint.evidence.text
