@@ -35,6 +35,7 @@ from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.keyed import flatted_hubs, keyed_hubs, squared_hubs
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.lead_nuts import lead_nuts, on_lead_screws
+from jaxkin.assembly.inference.link_ends import hinged_ends
 from jaxkin.assembly.inference.lock_nuts import locked_threads
 from jaxkin.assembly.inference.lying_on_one import lying_on_one
 from jaxkin.assembly.inference.measured import Measured
@@ -235,6 +236,7 @@ def _take_joints_between_bodies(known: Known, fastening: Collection[str]) -> _St
 
 def _take_what_is_left(known: Known, guided: Sequence[StoppedJoint]) -> None:
     """Take what is left: parts that lie on one other, or that nothing ties."""
+    known.take(hinged_ends(known))
     known.take(screwed_flat(known))
     known.take(lone_screws(known))
     known.take(lying_on_one(known, guided))

@@ -11,6 +11,7 @@ from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.fasteners import Stack, beside
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.link_ends import link_ends
 from jaxkin.assembly.inference.sleeves import SAME_FIT, is_round_about
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
@@ -52,10 +53,11 @@ def clamped_by_one_screw(known: Known, every: Sequence[Stack]) -> list[Inference
         owners = {body[each.part], body[each.host]}
         for owner in {body[part] for part in each.turning} - ground:
             partners.setdefault(owner, set()).update(owners - {owner})
+    ends = link_ends(known) if found else []
     links, result = {owner for owner, others in partners.items() if len(others) > 1}, []
     for each in found:
         turning = {body[part] for part in each.turning}
-        if not links & turning and not _is_lever(known, each, body) and not _is_leaf(each, found, body):
+        if not links & turning and not _is_lever(known, each, body, ends) and not _is_leaf(each, found, body):
             text = f"{each.why} with a clearance of {each.through.clearance:.2g}: it clamps them"
             text += f" (if they turn on it, give joints=[{_hinge(each)}])"
             sizes = (("radius", each.inner.one.radius), ("clearance", each.through.clearance))
@@ -64,9 +66,9 @@ def clamped_by_one_screw(known: Known, every: Sequence[Stack]) -> list[Inference
     return result
 
 
-def _is_lever(known: Known, clamped: _Clamped, body: Mapping[str, str]) -> bool:
-    """Tell whether one of two parts is in a ring of four: a pin beside the screw joins it with a third body, which a
-    fourth one joins with the other part.
+def _is_lever(known: Known, clamped: _Clamped, body: Mapping[str, str], ends: Sequence[tuple[str, CommonAxis]]) -> bool:
+    """Tell whether one of two parts is in a ring of four: a pin beside the screw, or the end of a link without its
+    screw, joins it with a third body, which a fourth one joins with the other part.
 
     Four hinges with parallel axes, or three and a slide, have one freedom; with the screw clamped they have none. A
     bracket that carries a lever is in a ring of five, and braced by one bar in one of three, which moves in no case.
@@ -76,6 +78,7 @@ def _is_lever(known: Known, clamped: _Clamped, body: Mapping[str, str]) -> bool:
     for part in clamped.turning:
         own, other = body[part], body[clamped.host if part == clamped.part else clamped.part]
         pinned = (each for each in known.axes if not each.virtual and beside(each.one, axis))
+        pinned = [*pinned, *(end for _, end in ends if beside(end.one, axis))]
         thirds = {owner for each in pinned for owner in _beyond(each.parts, own, body)} - {other}
         for third in thirds:
             fourth = {owner for tie in ties for owner in _beyond(tie, third, body)} - {own}
