@@ -6,6 +6,7 @@ motion = mechanism.sweep({"ground-crank": jnp.linspace(0, 2 * jnp.pi, 361)})
 motion.save("out/")
 """
 
+import functools
 import typing
 
 if typing.TYPE_CHECKING:
@@ -15,19 +16,34 @@ __version__ = "0.1.0"
 
 
 def __getattr__(name: str) -> typing.Any:
-    """Import what users import, and JAX, when the first name is asked for: the help of the command line needs none."""
+    """Import a name from its module, and what that needs, when it is asked for: all modules take nearly as long to
+    import as JAX, which the help of the command line does not need either."""
     if name.startswith("__"):
         raise AttributeError(name)
     from importlib import import_module
 
-    found = vars(import_module("jaxkin._api"))
-    if name not in found:
+    module = _exports().get(name)
+    if module is None:
         raise AttributeError(f"module 'jaxkin' has no attribute {name!r}")
-    globals()[name] = found[name]
-    return found[name]
+    found = import_module(f"jaxkin.{name}") if module == "jaxkin" else getattr(import_module(module), name)
+    globals()[name] = found
+    return found
 
 
 def __dir__() -> list[str]:
-    from jaxkin import _api
+    return sorted([*_exports(), "__version__"])
 
-    return sorted(name for name in vars(_api) if not name.startswith("_")) + ["__version__"]
+
+@functools.cache
+def _exports() -> dict[str, str]:
+    """Read the list of what users import, without importing that: each name with its module."""
+    import ast
+    from importlib import import_module
+    from pkgutil import get_data
+
+    exports: dict[str, str] = {}
+    for node in ast.parse(get_data("jaxkin", "_api.py") or "").body:
+        if isinstance(node, ast.ImportFrom) and node.module:
+            names = [alias.name for alias in node.names]
+            exports |= dict.fromkeys(import_module(node.module).__all__ if names == ["*"] else names, node.module)
+    return exports

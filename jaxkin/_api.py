@@ -1,4 +1,4 @@
-"""What users import, each name from where it is made: `jaxkin` has all of them, when the first is asked for."""
+"""What users import, each name from where it is made: `jaxkin` imports one when it is asked for."""
 
 from jaxkin import design as design
 from jaxkin.assembly.assembly import Assembly as Assembly

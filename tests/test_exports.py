@@ -2,6 +2,8 @@
 
 import inspect
 import re
+import subprocess
+import sys
 
 import pytest
 
@@ -42,6 +44,14 @@ def test_what_a_public_call_returns_is_public(name, function):
 def test_what_dir_lists_can_be_asked_for_first():
     """Modules are names of the package only once something in them was imported."""
     assert set(dir(jk)) == {*(name for name in vars(_api) if not name.startswith("_")), "__version__"}
+
+
+def test_a_name_imports_what_it_needs_and_no_more():
+    """All that a sweep never asks for takes nearly as long to import as JAX."""
+    code = "import sys, jaxkin as jk; jk.Mechanism, jk.revolute, jk.optimize; print(*sys.modules)"
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
+    floors = {name.split(".")[1] for name in found if name.startswith("jaxkin.")}
+    assert {"mechanism", "design"} <= floors and floors.isdisjoint({"io", "view", "effects", "assembly", "cli"})
 
 
 def test_a_public_class_shares_its_name_with_no_other_class():
