@@ -15,6 +15,7 @@ from jaxkin.design.augmented_lagrangian import Penalty, Verdict
 from jaxkin.design.problem import HOPELESS, Problem, ProgramKey, Weighted, taken_apart
 from jaxkin.design.solvers import CHUNK, KEPT, TOGETHER, Solver, in_groups, unit_box
 from jaxkin.solve.execution.two_tiers import TwoTiers
+from jaxkin.solve.lockstep import in_lockstep
 
 FIRST_DAMPING = 1e-3
 """Damping of the first step, relative to the largest diagonal entry of J^T J."""
@@ -108,7 +109,7 @@ def _program(key: ProgramKey, together: int) -> TwoTiers:
             found = jax.tree.map(lambda rows: jnp.clip(jnp.nan_to_num(rows, nan=HOPELESS), -MOST, MOST), found)
             return found, jnp.nan_to_num(jnp.concatenate(slopes), nan=0.0, posinf=0.0, neginf=0.0)
 
-        return jax.vmap(one)(units, penalties)
+        return in_lockstep(one, (0, 0))(units, penalties)
 
     return TwoTiers(program)
 

@@ -36,10 +36,15 @@ def in_lockstep(function: Callable, in_axes: tuple[int | None, ...]) -> Callable
     return jax.vmap(one, in_axes, axis_name=_DESIGNS)
 
 
+def runs_in_lockstep() -> bool:
+    """Tell whether JAX is tracing a batch of designs that runs `in_lockstep`."""
+    return _in_lockstep.get()
+
+
 def any_in_lockstep(mask: Bool[Array, "..."]) -> Array:
     """Tell whether the mask holds anywhere, in any design of a batch that runs `in_lockstep`."""
     found = jnp.any(mask)
-    return lax.pmax(found.astype(jnp.int32), _DESIGNS) > 0 if _in_lockstep.get() else found
+    return lax.pmax(found.astype(jnp.int32), _DESIGNS) > 0 if runs_in_lockstep() else found
 
 
 @jax.custom_batching.custom_vmap

@@ -16,7 +16,7 @@ from jax import lax
 from jaxtyping import Array, Int
 
 from jaxkin.solve.device import group_for_device
-from jaxkin.solve.lockstep import in_lockstep
+from jaxkin.solve.lockstep import in_lockstep, runs_in_lockstep
 
 Result = TypeVar("Result")
 DESIGN_GROUP = 32
@@ -128,8 +128,11 @@ def by_formulas_in_groups(function: Callable[..., Result]) -> Callable[..., Resu
     """Turn a function of arrays into one that `vmap` runs in groups of designs, one after another.
 
     Formulas take as long for every design. But all designs at once would write each of some hundred intermediate
-    results to memory and read it again; those of a group stay in the cache. Nothing may be differentiated.
+    results to memory and read it again; those of a group stay in the cache. Nothing may be differentiated. What runs in
+    lockstep is a group already.
     """
+    if runs_in_lockstep():
+        return function
 
     @jax.custom_batching.custom_vmap
     def alone(*args):

@@ -74,11 +74,16 @@ def solve(
     inside = inside or traced(numbers)
     if inside:
         by_formula = _formulas_suffice(system, options, inputs, axes, line)
-    if by_formula:
-        if axes is not None and line is None:
-            line = line_of(system, axes, np.asarray(numbers[1]))
-        found = _formula_poses_program(whole=not inside)(system, *numbers, axes, line)
-        if inside or found.proven:
+    if by_formula and inside:
+        # axes of traced joints are computed once for poses and displacements
+        own = axes if axes is not None and not traced(joints) else assembled_axes(system, joints)
+        given = lax.stop_gradient(own) if axes is None else axes
+        found = _poses_by_formula(system, given, *numbers[1:], line)
+        return displacements_by_formula(system, joints, inputs, found, own), _outcome(found)
+    if by_formula and axes is not None:
+        line = line or line_of(system, axes, np.asarray(numbers[1]))
+        found = _formula_poses_program()(system, axes, *numbers[1:], line)
+        if found.proven:
             # axes are numbers, also where joints are differentiated: then they have no derivatives
             differentiated = None if traced(joints) else axes
             return _formula_displacements_program(system, joints, inputs, found, differentiated), _outcome(found)
@@ -147,24 +152,17 @@ def _sweep_by_formula(
 
 
 def _poses_by_formula(
-    system: LoopSystem,
-    joints: Joints,
-    inputs: Float[Array, "1 poses"],
-    tolerance: ClosureTolerance,
-    axes: Axes | None,
-    line: Line | None,
+    system: LoopSystem, axes: Axes, inputs: Float[Array, "1 poses"], tolerance: ClosureTolerance, line: Line | None
 ) -> FormulaPoses:
-    """Find poses by formulas; where the geometry is traced, there are no `axes` and no `line` yet."""
+    """Find poses by formulas; where the geometry is traced, there is no `line` yet."""
     count_trace()
 
-    def find(
-        joints: Joints, inputs: Array, tolerance: ClosureTolerance, axes: Axes | None, line: Line | None
-    ) -> FormulaPoses:
-        if axes is not None and line is not None:
-            return find_poses_by_formula(system, axes, line, inputs, tolerance)
-        return find_poses_and_line(system, assembled_axes(system, joints), inputs, tolerance)
+    def find(axes: Axes, inputs: Array, tolerance: ClosureTolerance, line: Line | None) -> FormulaPoses:
+        if line is None:
+            return find_poses_and_line(system, axes, inputs, tolerance)
+        return find_poses_by_formula(system, axes, line, inputs, tolerance)
 
-    return by_formulas_in_groups(find)(joints, inputs, tolerance, axes, line)
+    return by_formulas_in_groups(find)(axes, inputs, tolerance, line)
 
 
 def _poses_of_all_designs(
@@ -191,9 +189,9 @@ def _formula_program():
 
 
 @cache
-def _formula_poses_program(whole: bool):
-    """Make the function that finds poses by formulas: a program of its own, or part of a traced one."""
-    return jax.jit(_poses_by_formula, static_argnames="system", **(jit_options() if whole else {}))
+def _formula_poses_program():
+    """Make the program that finds poses by formulas."""
+    return jax.jit(_poses_by_formula, static_argnames="system", **jit_options())
 
 
 _formula_displacements_program = jax.jit(displacements_by_formula, static_argnames="system")
