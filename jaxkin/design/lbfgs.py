@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jax import dtypes
 
 from jaxkin.design.augmented_lagrangian import Verdict
 from jaxkin.design.problem import HOPELESS, Judged, Problem, ProgramKey, taken_apart
@@ -38,7 +39,7 @@ class _Programs(NamedTuple):
 
 def bounded(problem: Problem, together: int = TOGETHER) -> Solver:
     """Make the solver by bounded L-BFGS, on vectors scaled to 0..1, `together` designs in a compiled program."""
-    lower, width = unit_box(problem.variables)
+    lower, width = (np.asarray(each, dtypes.canonicalize_dtype(float)) for each in unit_box(problem.variables))
     key, numbers = taken_apart(problem)
     first, further, judged = _programs(key)
 

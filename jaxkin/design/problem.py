@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jax import dtypes
 from jaxtyping import Array, Float
 
@@ -114,10 +115,7 @@ class Problem:
 
     def constraint_count(self, motion: Motion, extras: dict[str, Any]) -> int:
         """Count the values of all constraints, for the motion and the extras of any design."""
-        return sum(
-            rows.size
-            for rows in jax.eval_shape(lambda *given: [rows for _, rows in self.margins(*given)], motion, extras)
-        )
+        return sum(rows.size for rows in jax.eval_shape(_margins, self, motion, extras))
 
     def weighted(self, vector, penalty: Penalty) -> Weighted:
         """Compute residuals and violations, weighted so that the sum of their squares is what is minimised."""
@@ -131,6 +129,11 @@ class Problem:
 
     def _call(self, motion: Motion, extras: dict[str, Any]):
         return _called(self.loss, motion, extras)
+
+
+def _margins(problem: Problem, motion: Motion, extras: dict[str, Any]) -> list[Float[Array, " constraints"]]:
+    """Compute the values of constraints; JAX keeps what it traces of this function for problems of one structure."""
+    return [rows for _, rows in problem.margins(motion, extras)]
 
 
 def _called(function: Callable[..., Any], motion: Motion, extras: dict[str, Any]):
@@ -163,7 +166,8 @@ class ProgramKey(NamedTuple):
 def taken_apart(problem: Problem) -> tuple[ProgramKey, list[Array]]:
     """Take a problem apart into its key, which is hashable, and its numbers, on the device."""
     leaves, tree = jax.tree.flatten(problem)
-    numbers = [jnp.asarray(leaf) for leaf in leaves]
+    # to make them one by one compiles a program for each shape
+    numbers = jax.device_put([leaf if isinstance(leaf, jax.Array) else np.asarray(leaf) for leaf in leaves])
     settings = dtypes.canonicalize_dtype(float), getattr(jax.config, "jax_default_device", None)
     return ProgramKey(tree, tuple((each.shape, each.dtype) for each in numbers), settings), numbers
 

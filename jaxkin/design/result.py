@@ -17,7 +17,7 @@ from jaxkin.geometry.characteristic_length import centroid_and_length
 from jaxkin.geometry.movements import is_length
 from jaxkin.linkage.record import as_record, from_record
 from jaxkin.mechanism.mechanism import Mechanism
-from jaxkin.solve.status import Status
+from jaxkin.solve.status import Status, is_closed_on_branch
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.motion import Motion
@@ -191,7 +191,8 @@ def judged_range(motion: Motion) -> Moves:
         status, steepest = np.asarray(motion.status), _steepest(motion)
     else:
         ((name, given),) = motion.inputs.items()
-        values = np.linspace(np.min(given), np.max(given), max(POSES, len(motion)))
+        given = np.asarray(given)  # on the host, as all here: operations of the device are compiled one by one
+        values = np.linspace(given.min(), given.max(), max(POSES, len(motion)))
         size = min(max(PIECE, len(motion)), len(values))
         status, steepest = np.zeros(len(values), int), 0.0
         for first in range(0, len(values) - 1, size - 1):  # neighbours share a pose
@@ -208,7 +209,7 @@ def _steepest(motion: Motion) -> float:
     pace = np.sqrt(sum(np.diff(np.asarray(values)) ** 2 for values in motion.inputs.values()))
     origins = np.concatenate([np.asarray(joint.frames_1)[:, :3, 3] for joint in joints])
     size = float(centroid_and_length(origins, np)[1])
-    closed = np.asarray(motion.closed)
+    closed = is_closed_on_branch(np.asarray(motion.status))
     steepest, both = 0.0, closed[1:] & closed[:-1] & (pace > 0)
     for joint, moved in zip(joints, motion.displacements, strict=True):
         for name, column in zip(joint.coordinates, np.asarray(moved).T, strict=True):

@@ -6,12 +6,11 @@ from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 import jax
-import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Bool, Float, Int
+from jaxtyping import Bool, Float, Int
 
 from jaxkin.design.augmented_lagrangian import Penalty, Verdict
-from jaxkin.design.variables import Variables
+from jaxkin.design.variables import Variables, Vector
 
 CHUNK = 10
 """Iterations after which starts may retire, and the search may end."""
@@ -56,6 +55,6 @@ def in_groups(
     return jax.tree.map(lambda *groups: np.concatenate(groups)[: len(chosen)], *found())
 
 
-def unit_box(chosen: Variables) -> tuple[Array, Array]:
+def unit_box(chosen: Variables) -> tuple[Vector, Vector]:
     """Return lower bounds and widths: vectors are lower + width * unit."""
-    return jnp.asarray(chosen.lower), jnp.asarray(chosen.upper) - chosen.lower
+    return chosen.lower, chosen.upper - chosen.lower

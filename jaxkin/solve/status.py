@@ -160,7 +160,7 @@ def classify(
     return jnp.where(jnp.isfinite(residual_norm), status, Status.NONFINITE.value).astype(jnp.int32)
 
 
-def is_closed_on_branch(status: Int[Array, " poses"]) -> Bool[Array, " poses"]:
+def is_closed_on_branch(status: Int[Array | np.ndarray, " poses"]) -> Bool[Array | np.ndarray, " poses"]:
     """Tell which poses have all loops closed on the branch of the assembled pose, within limits of joints or not."""
     return (status == Status.CLOSED.value) | (status == Status.LIMITED.value)
 

@@ -1,5 +1,7 @@
 """One program for problems of one structure, and another one for whatever else computes something else."""
 
+import re
+
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -111,3 +113,21 @@ def test_a_like_problem_is_solved_by_the_program_that_is_there(monkeypatch):
         # squares of residuals fall to rounding, and the crank with them to its root
         assert found(ground, crank) == pytest.approx(crank, rel=1e-9)
         assert len(count) == 1
+
+
+@pytest.mark.long
+def test_a_search_compiles_whole_programs_only(caplog):
+    """Operations of the device that are called one by one are compiled one by one: some 20 ms each."""
+    jax.clear_caches()
+    with jax.log_compiles():
+        jk.optimize(
+            design.path("coupler", POINT, TARGETS),
+            planar_fourbar(1.0),
+            drive={"A": TURN},
+            lengths={CRANK: (20.0, 60.0)},
+            starts=2,
+            solver=design.LevenbergMarquardt(iterations=10),
+        )
+    compiled = re.findall(r"Finished XLA compilation of jit\((.*?)\)", caplog.text)
+    # "<lambda>" tells whether numbers are traced, or which options the compiler knows
+    assert "program" in compiled and set(compiled) <= {"program", "_find", "_collect_chunks", "<lambda>"}
