@@ -22,7 +22,7 @@ from jaxkin.design.measures import (
     PartPoint,
     driven_values,
     joint_coordinate,
-    length_now,
+    lengths_now,
     part_point,
     transmission_angle,
 )
@@ -52,7 +52,7 @@ class _FullCrank(DesignConstraint):
     bars: tuple[Key, Key, Key, Key] = field(metadata=STATIC)
 
     def __call__(self, motion: Motion, extras: Extras):
-        g, a, b, c = (length_now(motion.mechanism, key) for key in self.bars)
+        g, a, b, c = lengths_now(motion.mechanism, self.bars)
         total = g + a + b + c
         return jnp.stack([total - 2 * (a + other) for other in (g, b, c)]) / total
 
@@ -76,7 +76,7 @@ class _Grashof(DesignConstraint):
     bars: tuple[Key, ...] = field(metadata=STATIC)
 
     def __call__(self, motion: Motion, extras: Extras):
-        lengths = jnp.sort(jnp.stack([jnp.asarray(length_now(motion.mechanism, key)) for key in self.bars]))
+        lengths = jnp.sort(jnp.stack([jnp.asarray(each) for each in lengths_now(motion.mechanism, self.bars)]))
         return (lengths[1] + lengths[2] - lengths[0] - lengths[3])[None] / jnp.sum(lengths)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -104,10 +104,10 @@ def stroke(motion: Motion, joint: str) -> Float[Array, ""]:
     return jnp.max(jnp.where(inside, values, -jnp.inf)) - jnp.min(jnp.where(inside, values, jnp.inf))
 
 
-def length_now(mechanism: Mechanism, key: tuple[str, ...]):
-    """Find the value of a length by any key that `with_lengths` knows; ValueError where there is none."""
-    # this one only: to trace the derivatives of all lengths took a quarter of the time to trace a path problem
-    return lengths.length_now(mechanism.linkage, key)
+def lengths_now(mechanism: Mechanism, keys: Sequence[tuple[str, ...]]):
+    """Find the values of lengths by any keys that `with_lengths` knows; ValueError where there is none."""
+    # these only: to trace the derivatives of all lengths took a quarter of the time to trace a path problem
+    return lengths.lengths_now(mechanism.linkage, keys)
 
 
 def joint_path(motion: Motion, name: str) -> Float[Array, "poses 3"]:

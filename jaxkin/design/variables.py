@@ -12,7 +12,7 @@ from jax import dtypes
 from jaxtyping import Array, Float
 
 from jaxkin._arguments import by_name
-from jaxkin.design.measures import STATIC, length_now
+from jaxkin.design.measures import STATIC, lengths_now
 from jaxkin.dimensions.frames import find_profile, locate
 from jaxkin.dimensions.lengths import find_length
 
@@ -147,7 +147,7 @@ def variables(
     fixed: dict[Any, Any] = {}
     for key, bounds in by_name(lengths, "lengths", "{('coupler', 'B', 'C'): (3.0, 5.0)}").items():
         length = find_length(mechanism.linkage, key)
-        now = length_now(mechanism, key)
+        (now,) = lengths_now(mechanism, [key])
         least = 0.0 if length.quantity in ("distance", "radius") and length.quantity != "offset" else -np.inf
         found = _entry("lengths", key, _free(f"length {key!r}", bounds, now))
         if np.any(found.lower < least) and not any(f.kind == "plane" for f in length.body):

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import jax
@@ -14,7 +15,7 @@ from jaxkin._arguments import by_name
 from jaxkin._names import nearest
 from jaxkin._traced import traced
 from jaxkin.dimensions.feature_geometry import between, moved, value
-from jaxkin.dimensions.features import Feature, Key, Length, length_table
+from jaxkin.dimensions.features import Feature, Key, Length, Quantity, length_table
 from jaxkin.dimensions.rearrange import Change, Layout, arrange
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.linkage import Linkage
@@ -33,13 +34,12 @@ Body = tuple[Feature, ...]
 def lengths(linkage: Linkage) -> dict[Key, float | jax.Array]:
     """Measure all lengths by name: see `Mechanism.lengths`."""
     table = length_table(linkage)
-    xp = jnp if traced(linkage) else np
-    return {key: _number(_measured(xp, linkage, length)) for key, length in table.items()}
+    return dict(zip(table, _measured(linkage, list(table.values())), strict=True))
 
 
-def length_now(linkage: Linkage, key: object) -> float | jax.Array:
-    """Measure one length by any name that `with_lengths` takes; ValueError where there is none."""
-    return _number(_measured(jnp if traced(linkage) else np, linkage, find_length(linkage, key)))
+def lengths_now(linkage: Linkage, keys: Sequence[object]) -> list[float | jax.Array]:
+    """Measure some lengths by any names that `with_lengths` takes; ValueError where there is none."""
+    return _measured(linkage, [find_length(linkage, key) for key in keys])
 
 
 def _number(quantity):
@@ -47,13 +47,50 @@ def _number(quantity):
     return quantity if isinstance(quantity, jax.Array) else float(quantity)
 
 
-def _measured(xp, linkage: Linkage, length: Length):
-    """Measure one length."""
-    if length.quantity == "pitch":
-        return linkage.joints[length.first].pitch
-    one, two = length.body[length.first], length.body[length.second]
-    pose1, pose2 = (_pose(xp, linkage, feature) for feature in (one, two))
-    return value(between(xp, one, pose1, two, pose2), length.quantity)
+def _measured(linkage: Linkage, asked: Sequence[Length]) -> list[float | jax.Array]:
+    """Measure lengths."""
+    xp = jnp if traced(linkage) else np
+    found = [linkage.joints[each.first].pitch if each.quantity == "pitch" else None for each in asked]
+    between_two = [number for number, pitch in enumerate(found) if pitch is None]
+    kinds: list[Any] = []
+    poses: list[Any] = []
+    for number in between_two:
+        body, first, second, quantity = asked[number]
+        kinds.append((_kind(body[first]), _kind(body[second]), quantity))
+        poses.append(tuple(_pose(xp, linkage, body[index]) for index in (first, second)))
+    for number, quantity in zip(between_two, _side_by_side(xp, _quantity, kinds, poses), strict=True):
+        found[number] = quantity
+    return [_number(each) for each in found]
+
+
+def _quantity(xp, kind: tuple[Feature, Feature, Quantity], pose1, pose2):
+    """Measure a quantity between two features of some kinds at their poses."""
+    one, two, quantity = kind
+    return value(between(xp, one, pose1, two, pose2), quantity)
+
+
+def _kind(feature: Feature) -> Feature:
+    """Leave out of which joint a feature is: what remains decides how lengths follow from its pose."""
+    return feature._replace(joint=0, side="frames_1", frame=0)
+
+
+def _side_by_side(
+    xp, function: Callable[..., Any], kinds: Sequence[Any], given: Sequence[tuple[Any, ...]]
+) -> list[Any]:
+    """Call a function of `xp`, a kind and arrays for each of several; where JAX traces, all of one kind at once.
+
+    So a program holds the operations once: to trace and to compile them takes far longer than to compute them.
+    """
+    found: dict[int, Any] = {}
+    for kind in dict.fromkeys(kinds):
+        own = [number for number, each in enumerate(kinds) if each == kind]
+        if xp is np or len(own) == 1:
+            found |= {number: function(xp, kind, *given[number]) for number in own}
+            continue
+        stacked = jax.tree.map(lambda *arrays: jnp.stack(arrays), *(given[number] for number in own))
+        leaves, tree = jax.tree.flatten(jax.vmap(partial(function, xp, kind))(*stacked))
+        found |= zip(own, (tree.unflatten(each) for each in zip(*leaves, strict=True)), strict=True)
+    return [found[number] for number in range(len(kinds))]
 
 
 def _pose(xp, linkage: Linkage, feature: Feature):
@@ -129,8 +166,18 @@ def rearranged(linkage: Linkage, changes: Mapping[Any, Any]) -> tuple[Linkage, d
     xp = jnp if traced(linkage, *(wanted for group in bodies.values() for _, wanted in group)) else np
     frames: dict[tuple[int, str, int], Any] = {}
     misfits: dict[str, np.floating | jax.Array] = {}
-    for body, group in bodies.items():
-        poses, misfit = _rearranged_body(xp, linkage, body, group)
+    kinds = [
+        (tuple(map(_kind, body)), tuple(each._replace(body=()) for each, _ in group)) for body, group in bodies.items()
+    ]
+    given = [
+        (
+            xp.stack([_pose(xp, linkage, feature) for feature in body]),
+            xp.stack([xp.asarray(wanted, dtype=float) for _, wanted in group]),
+        )
+        for body, group in bodies.items()
+    ]
+    arranged = _side_by_side(xp, _arranged_program if xp is jnp else _arranged, kinds, given)
+    for body, (poses, misfit) in zip(bodies, arranged, strict=True):
         if misfit is not None:
             misfits[_row(linkage, body)] = misfit
         frames.update({(f.joint, f.side, f.frame): pose for f, pose in zip(body, poses, strict=True)})
@@ -166,17 +213,12 @@ def _by_body(
     return bodies, pitches
 
 
-def _rearranged_body(xp, linkage: Linkage, body: Body, group: list[tuple[Length, Any]]) -> tuple[list[Any], Any]:
-    """Change lengths of one body; return the poses of its features, and the misfit, None for two features only."""
-    poses = xp.stack([_pose(xp, linkage, feature) for feature in body])
-    wanted = xp.stack([xp.asarray(wanted, dtype=float) for _, wanted in group])
-    arranged = _arranged_program if xp is jnp else _arranged
-    placed, misfit = arranged(xp, body, tuple(length for length, _ in group), poses, wanted)
-    return list(placed), misfit
+def _arranged(xp, kind: tuple[Body, tuple[Length, ...]], original, wanted) -> tuple[Any, Any]:
+    """Place the features of one body so that some lengths get the values wanted.
 
-
-def _arranged(xp, body: Body, changed: tuple[Length, ...], original, wanted):
-    """Place the features of one body so that some lengths get the values wanted; see `_rearranged_body`."""
+    Returns the poses of the features (features, 4, 4), and the misfit, None for two features only.
+    """
+    body, changed = kind
     poses = list(original)
     for length, new in zip(changed, wanted, strict=True):
         one, two = body[length.first], body[length.second]
@@ -185,12 +227,12 @@ def _arranged(xp, body: Body, changed: tuple[Length, ...], original, wanted):
         change = new - value(found, length.quantity)
         poses[length.second] = moved(xp, length.quantity, found, change, direction, poses[length.second])
     if len(body) == 2:
-        return poses, None
+        return xp.stack(poses), None
     layout = Layout(body, tuple(Change(length.first, length.second, length.quantity) for length in changed))
     return arrange(xp, layout, original, xp.stack(poses), wanted)
 
 
-_arranged_program = jax.jit(_arranged, static_argnums=(0, 1, 2))
+_arranged_program = jax.jit(_arranged, static_argnums=(0, 1))
 """One program for a body: operation by operation, a gradient that is not inside `jit` compiles some fifty."""
 
 

@@ -18,7 +18,7 @@ from jaxkin._names import nearest
 from jaxkin._traced import traced
 from jaxkin.dimensions.feature_geometry import shifted, turned
 from jaxkin.dimensions.frames import locate
-from jaxkin.dimensions.lengths import find_length, length_now
+from jaxkin.dimensions.lengths import find_length, lengths_now
 from jaxkin.geometry.pose import frame
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.linkage import Linkage
@@ -150,7 +150,7 @@ def unknowns_of(
     unknowns = Unknowns(keys, tuple(found), markers)
     if not unknowns.names:
         raise ValueError("nothing to calibrate: name lengths, frames or markers")
-    values = [float(length_now(mechanism.linkage, key)) for key in keys]
+    values = [float(each) for each in lengths_now(mechanism.linkage, keys)]
     values += [0.0 for each in found for _ in each.components]
     values += [x for marker in markers for x in marker.at or ()]
     return unknowns, Nominal(np.array(values), tuple(axes))

@@ -11,7 +11,7 @@ from jaxtyping import Float
 
 from jaxkin._arguments import by_name, check_mechanism, whole_number
 from jaxkin._traced import traced
-from jaxkin.dimensions.lengths import find_length, length_now
+from jaxkin.dimensions.lengths import find_length, lengths_now
 from jaxkin.effects.design_batch import Measured, evaluate, value_and_slopes
 from jaxkin.effects.pin_play import directions_of_play
 from jaxkin.effects.tolerance import Tolerance, as_tolerance, named
@@ -153,7 +153,7 @@ def _lengths(given: Any) -> Mapping[Any, Any]:
 
 def _nominal(mechanism: Mechanism, stated: Mapping[Any, Tolerance]) -> list[Any]:
     """Look up the nominal lengths; ValueError where a tolerance reaches below zero, or does not fit others."""
-    nominal = [length_now(mechanism.linkage, key) for key in stated]
+    nominal = lengths_now(mechanism.linkage, list(stated))
     if traced(nominal) or not stated:
         return nominal
     for (key, tolerance), now in zip(stated.items(), nominal, strict=True):

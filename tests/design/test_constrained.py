@@ -10,7 +10,7 @@ from jaxkin import design
 from jaxkin.design.augmented_lagrangian import MET, Penalty, Verdict, renewed, worth_more
 from jaxkin.design.lbfgs import bounded
 from jaxkin.design.least_squares import least_squares
-from jaxkin.design.measures import length_now
+from jaxkin.design.measures import lengths_now
 from jaxkin.design.problem import design_problem
 from jaxkin.design.variables import variables
 from jaxkin.solve.options import SolverOptions
@@ -133,7 +133,7 @@ def test_the_longest_crank_whose_rod_clears_a_post_by_two_millimetres(tmp_path):
     start = slider_crank(0.0, crank=30.0, rod=120.0, offset=0.0)
 
     def longest(motion):
-        return jnp.atleast_1d(length_now(motion.mechanism, crank) - 60.0) / 60.0
+        return jnp.atleast_1d(lengths_now(motion.mechanism, [crank])[0] - 60.0) / 60.0
 
     def clears(motion):
         ends = [motion.points("rod", (x, 0.0, 0.0))[:, :2] for x in (30.0, 150.0)]

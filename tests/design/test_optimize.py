@@ -97,7 +97,7 @@ def test_a_variable_without_influence_is_named_and_keeps_its_value():
     """The residual is of the crank's length and of nothing else: its derivative by an extra is exactly zero."""
 
     def loss(motion, extras):
-        return jnp.atleast_1d(design.measures.length_now(motion.mechanism, CRANK) - 30.0)
+        return jnp.atleast_1d(design.measures.lengths_now(motion.mechanism, [CRANK])[0] - 30.0)
 
     with pytest.warns(UserWarning, match=r"the loss does not depend on spare: the derivative is zero for every start"):
         best = jk.optimize(

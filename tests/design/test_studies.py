@@ -162,8 +162,8 @@ def test_lengths_of_an_assembly_from_step():
         constraints=[design.full_crank(ground, crank, coupler, rocker)],
     )
     assert best.feasible and best.moves.everywhere
-    bars = [float(design.measures.length_now(best.mechanism, key)) for key in (ground, crank, coupler, rocker)]
-    assert bars[0] == pytest.approx(float(design.measures.length_now(mechanism, ground)), rel=1e-12)
+    bars = [float(each) for each in design.measures.lengths_now(best.mechanism, (ground, crank, coupler, rocker))]
+    assert bars[0] == pytest.approx(float(design.measures.lengths_now(mechanism, [ground])[0]), rel=1e-12)
     # where crank and coupler are in line the rocker turns back: two triangles with the ground link
     ends_of = [
         (bars[0] ** 2 + bars[3] ** 2 - (bars[2] + sign * bars[1]) ** 2) / (2 * bars[0] * bars[3]) for sign in (1, -1)

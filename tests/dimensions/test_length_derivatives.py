@@ -11,6 +11,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
+from jaxkin.dimensions.lengths import lengths_now, rearranged
 from jaxkin.joints.pairs import revolute, screw
 from jaxkin.mechanism.mechanism import Mechanism
 from reference import planar, spatial
@@ -249,3 +250,24 @@ def test_an_unused_joint_has_no_derivative():
         lambda x: jnp.sum(more.with_lengths({("flap", "E", "F"): x}).sweep({"A": INPUTS}).coordinates["D"])
     )(30.0)
     assert slope == 0.0
+
+
+def test_a_program_holds_the_operations_of_lengths_of_one_kind_once():
+    """Four bars are measured, and changed, by hardly more operations than one."""
+    mechanism = planar_fourbar(START)
+    bars = [("ground", "A", "D"), ("crank", "A", "B"), ("coupler", "B", "C"), ("rocker", "C", "D")]
+    now = lengths_now(mechanism.linkage, bars)
+
+    def changed_and_measured(count: int):
+        def function(values):
+            linkage, _ = rearranged(mechanism.linkage, dict(zip(bars, values, strict=False)))
+            return jnp.stack(lengths_now(linkage, bars[:count]))
+
+        return function, jnp.array(now[:count]) * jnp.linspace(1.0, 1.1, count)
+
+    one, four = (
+        str(jax.make_jaxpr(function)(values)).count("\n") for function, values in map(changed_and_measured, (1, 4))
+    )
+    assert four < 2 * one
+    function, values = changed_and_measured(4)
+    np.testing.assert_allclose(jax.jit(function)(values), values, rtol=1e-14)

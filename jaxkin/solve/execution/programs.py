@@ -75,10 +75,11 @@ def solve(
     if inside:
         by_formula = _formulas_suffice(system, options, inputs, axes, line)
     if by_formula and inside:
-        # axes of traced joints are computed once for poses and displacements
+        # axes of traced joints are computed once, for the poses and for the displacements that are differentiated
         own = axes if axes is not None and not traced(joints) else assembled_axes(system, joints)
-        given = lax.stop_gradient(own) if axes is None else axes
-        found = _poses_by_formula(system, given, *numbers[1:], line)
+        held = lax.stop_gradient(own) if axes is None else axes
+        inputs = jnp.asarray(inputs)
+        found = _poses_by_formula(system, held, lax.stop_gradient(inputs), numbers[2], line)
         return displacements_by_formula(system, joints, inputs, found, own), _outcome(found)
     if by_formula and axes is not None:
         line = line or line_of(system, axes, np.asarray(numbers[1]))
@@ -152,7 +153,11 @@ def _sweep_by_formula(
 
 
 def _poses_by_formula(
-    system: LoopSystem, axes: Axes, inputs: Float[Array, "1 poses"], tolerance: ClosureTolerance, line: Line | None
+    system: LoopSystem,
+    axes: Axes,
+    inputs: Float[Array | np.ndarray, "1 poses"],
+    tolerance: ClosureTolerance,
+    line: Line | None,
 ) -> FormulaPoses:
     """Find poses by formulas; where the geometry is traced, there is no `line` yet."""
     count_trace()
