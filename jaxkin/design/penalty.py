@@ -7,17 +7,14 @@ back along it to designs that close, and through designs that do not.
 
 from __future__ import annotations
 
-from functools import reduce
-
 import jax.numpy as jnp
 import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
 from jaxkin.geometry.characteristic_length import centroid_and_length
-from jaxkin.geometry.rigid import inverse, product
 from jaxkin.linkage.coordinates import resolve
-from jaxkin.linkage.joint_motion import joint_motion
+from jaxkin.linkage.joint_motion import loop_motion
 from jaxkin.linkage.loop_class import LoopClass
 from jaxkin.mechanism.motion import Motion
 from jaxkin.solve.closure.couplings import coupling_closure, scaled_couplings
@@ -42,10 +39,8 @@ def closure_gaps(motion: Motion) -> Float[Array, " poses"]:
         joints = [mechanism.all_joints[joint] for joint in loop_group.joints]
         origins = jnp.concatenate([jnp.asarray(joint.frames_1)[:, :3, 3] for joint in joints])
         centre, size = centroid_and_length(origins)
-        motions = {joint: joint_motion(mechanism.all_joints[joint], held[joint]) for joint in loop_group.joints}
         for loop in loop_group.loops:
-            along = [motions[joint] if sign > 0 else inverse(motions[joint]) for joint, sign in loop]
-            end = reduce(product, along)
+            end = loop_motion(mechanism.all_joints, held, loop)
             turned = end[:, :3] - jnp.eye(3)[..., None]
             moved = end[:, 3] + jnp.einsum("ijp,j->ip", turned, centre)
             square = square + 0.5 * jnp.sum(turned**2, axis=(0, 1)) + jnp.sum((moved / size) ** 2, axis=0)

@@ -263,8 +263,10 @@ def displaced(
     q: Float[Array, "k *#poses"],
     pitch: Float[Array, ""] | float = 0.0,
     curve: Followed | None = None,
+    back: bool = False,
 ) -> Rigid:
-    """Multiply frames F by a movement T from the right, F T, one elementary motion after the other.
+    """Multiply frames F by a movement T from the right, F T, or `back` by its inverse, one elementary motion after the
+    other.
 
     `q` has one row for each of `MOVEMENTS[movement].coordinates`: radians, or lengths in the unit of the mechanism.
     `pitch` is the advance per turn of `T_screw`, and `curve` the curve, or the surface, that a movement follows, in the
@@ -272,9 +274,12 @@ def displaced(
     motion changes at most two columns of F, which costs less than a matrix product.
     """
     point = None if curve is None else curve.spline(jnp).at(*q, xp=jnp)
-    for element in MOVEMENTS[movement].elements:
-        how_far = amount(element, q[element.coordinate], pitch, point, cos_sin)
-        columns = displaced_columns([frame[:, column] for column in range(4)], element.axis, *how_far)
+    elements = MOVEMENTS[movement].elements
+    for element in reversed(elements) if back else elements:
+        advance, turn = amount(element, q[element.coordinate], pitch, point, cos_sin)
+        if back:
+            advance, turn = None if advance is None else -advance, None if turn is None else (turn[0], -turn[1])
+        columns = displaced_columns([frame[:, column] for column in range(4)], element.axis, advance, turn)
         frame = jnp.stack(jnp.broadcast_arrays(*columns), axis=1)
     return frame
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 
 import jax
@@ -114,6 +115,34 @@ def _displace_by_joint(joint: Joint, q: Float[Array, "poses _"], point: Float[Ar
         local = displace_point(local, movement, own, jnp.asarray(joint.pitch, q.dtype), curve, back=sign < 0)
         point = after[:3, :3] @ local + after[:3, 3:]
     return point
+
+
+def loop_motion(
+    joints: Sequence[Joint], displacements: Sequence[Float[Array, "poses _"]], loop: Sequence[tuple[int, int]]
+) -> Float[Array, "3 4 poses"]:
+    """Compute the product of the displacements of joints along a loop, or of their inverses where the sign is negative:
+    the identity where the loop closes.
+
+    Frames of neighbouring movements are multiplied first: these products are the same for all poses.
+    """
+    steps, ends = [], []
+    for number, sign in loop:
+        joint, q = joints[number], displacements[number]
+        enter, leave = (joint.frames_1, joint.frames_2) if sign > 0 else (joint.frames_2, joint.frames_1)
+        numbered = list(enumerate(zip(joint.movements, coordinate_ranges(joint.movements), strict=True)))
+        for frame, (movement, own) in numbered if sign > 0 else reversed(numbered):
+            curve = joint.curves[frame] if joint.curves else None
+            pitch = jnp.asarray(joint.pitch, q.dtype)
+            steps.append((movement, q[:, own.start : own.stop].T, pitch, curve, sign < 0))
+            ends.append((enter[frame], leave[frame]))
+    enter, leave = (jnp.stack([jnp.asarray(each, float) for each in side]) for side in zip(*ends, strict=True))
+    turned = leave[:, :3, :3].swapaxes(1, 2)
+    back = jnp.concatenate([turned, -turned @ leave[:, :3, 3:]], axis=2)
+    between = [*(back[:-1] @ enter[1:]), back[-1]]
+    found = as_rigid(enter[0])
+    for step, then in zip(steps, between, strict=True):
+        found = product(displaced(found, *step), then[:, :, None])
+    return found
 
 
 def joint_motion(joint: Joint, q: Float[Array, "poses _"]) -> Float[Array, "3 4 poses"]:
