@@ -9,6 +9,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import dtypes
+from jax.extend.core import jaxpr_as_fun
 from jaxtyping import Bool, Float
 
 from jaxkin.design.augmented_lagrangian import Penalty, Verdict
@@ -102,10 +103,18 @@ def _program(key: ProgramKey, together: int) -> TwoTiers:
         lower, width = unit_box(problem.variables)
 
         def one(unit, penalty):
+            def weighted(unit):
+                return problem.weighted(lower + width * unit, penalty)
+
+            # operations are traced once, and then mapped and differentiated: in place of all functions of JAX, each
+            # of which is a program to be mapped and differentiated by itself
+            operations, shapes = jax.make_jaxpr(weighted, return_shape=True)(unit)
+
             def along(direction):
-                return jax.jvp(lambda u: problem.weighted(lower + width * u, penalty), (unit,), (direction,))
+                return jax.jvp(jaxpr_as_fun(operations), (unit,), (direction,))
 
             found, slopes = jax.vmap(along, out_axes=(None, -1))(jnp.eye(unit.size, dtype=unit.dtype))
+            found = jax.tree.structure(shapes).unflatten(found)
             found = jax.tree.map(lambda rows: jnp.clip(jnp.nan_to_num(rows, nan=HOPELESS), -MOST, MOST), found)
             return found, jnp.nan_to_num(jnp.concatenate(slopes), nan=0.0, posinf=0.0, neginf=0.0)
 
