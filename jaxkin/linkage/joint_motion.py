@@ -141,7 +141,8 @@ def loop_motion(
     between = [*(back[:-1] @ enter[1:]), back[-1]]
     found = as_rigid(enter[0])
     for step, then in zip(steps, between, strict=True):
-        found = product(displaced(found, *step), then[:, :, None])
+        # a barrier, as in `moving_parts`
+        found = lax.optimization_barrier(product(displaced(found, *step), then[:, :, None]))
     return found
 
 
