@@ -304,34 +304,20 @@ _compiled: dict[int, tuple] = {}
 
 
 def paths(names: list[str]) -> None:
-    """Print the time of a first search for each path problem, and of the same again, and what they find."""
-    print(f"{'':4}{'first: cpu':>12}{'wall':>8}{'again: cpu':>14}{'wall':>8}{'process':>10}  [s]", end="")
-    print(f"{'published':>13}{'found':>13}", flush=True)
-    for name in names or PATHS:
-        subprocess.run([sys.executable, __file__, "path", name], check=True)
-
-
-def path(name: str) -> None:
-    """Print the row of one path problem."""
-    import jaxkin as jk
-
-    times = []
-    for _ in range(2):
-        begin = time.process_time(), time.perf_counter()
-        found = jk.optimize(**PATHS[name].arguments(), starts=64, progress=False)
-        times += [time.process_time() - begin[0], time.perf_counter() - begin[1]]
-    cells = "".join(f"{value:>{width}.1f}" for value, width in zip(times, (12, 8, 14, 8), strict=True))
-    print(
-        f"({name}) {cells}{time.process_time():>10.1f}     {PATHS[name].published:>13.5g}{found.value:>13.5g}",
-        flush=True,
+    """Print the time of a first search for each path problem, of the process up to its end, and of the same again, and
+    what they find."""
+    heads = zip(
+        ("first: cpu", "wall", "process: cpu", "wall", "again: cpu", "wall"), (12, 8, 15, 8, 14, 8), strict=True
     )
+    print(
+        f"{'':4}{''.join(f'{head:>{width}}' for head, width in heads)}  [s]{'published':>13}{'found':>13}", flush=True
+    )
+    for name in names or PATHS:
+        subprocess.run([sys.executable, str(Path(__file__).with_name("path_problem.py")), name], check=True)
 
 
 if __name__ == "__main__":
     jax.config.update("jax_enable_x64", True)
-    if sys.argv[1:2] == ["path"]:
-        path(sys.argv[2])
-        sys.exit()
     print(f"jax {jax.__version__}, {jax.devices()[0].device_kind}, float64\n")
     if sys.argv[1:2] == ["paths"]:
         paths(sys.argv[2:])
