@@ -265,17 +265,15 @@ def displaced(
     curve: Followed | None = None,
     back: bool = False,
 ) -> Rigid:
-    """Multiply frames F by a movement T from the right, F T, or `back` by its inverse, one elementary motion after the
-    other.
+    """Multiply frames F by a movement T, or `back` by its inverse, from the right: F T, one elementary motion at a time.
 
     `q` has one row for each of `MOVEMENTS[movement].coordinates`: radians, or lengths in the unit of the mechanism.
     `pitch` is the advance per turn of `T_screw`, and `curve` the curve, or the surface, that a movement follows, in the
-    same unit. The frames, or `q`, may have a last axis of length one, for all poses. An elementary
-    motion changes at most two columns of F, which costs less than a matrix product.
+    same unit. The frames, or `q`, may have a last axis of length one, for all poses. An elementary motion changes at
+    most two columns of F, which costs less than a matrix product.
     """
     point = None if curve is None else curve.spline(jnp).at(*q, xp=jnp)
-    elements = MOVEMENTS[movement].elements
-    for element in reversed(elements) if back else elements:
+    for element in MOVEMENTS[movement].elements[:: -1 if back else 1]:
         advance, turn = amount(element, q[element.coordinate], pitch, point, cos_sin)
         if back:
             advance, turn = None if advance is None else -advance, None if turn is None else (turn[0], -turn[1])
@@ -292,14 +290,10 @@ def displace_point(
     curve: Followed | None,
     back: bool,
 ) -> Float[Array, "3 poses"]:
-    """Displace a point of a frame by a movement T, in the axes of the frame, or `back` by its inverse.
-
-    Arguments are those of `displaced`.
-    """
+    """Displace a point by a movement T, or `back` by its inverse, in the axes of the frame; arguments as of `displaced`."""
     followed = None if curve is None else curve.spline(jnp).at(*q, xp=jnp)
     rows = tuple(point)
-    elements = MOVEMENTS[movement].elements
-    for element in elements if back else reversed(elements):
+    for element in MOVEMENTS[movement].elements[:: 1 if back else -1]:
         how_far = amount(element, q[element.coordinate], pitch, followed, cos_sin)
         rows = displaced_point(rows, element.axis, *how_far, back)
     return jnp.stack(jnp.broadcast_arrays(*rows))
