@@ -265,7 +265,7 @@ def displaced(
     curve: Followed | None = None,
     back: bool = False,
 ) -> Rigid:
-    """Multiply frames F by a movement T, or `back` by its inverse, from the right: F T, one elementary motion at a time.
+    """Multiply frames F by a movement T, or `back` by its inverse, from the right: F T, elementary motion by motion.
 
     `q` has one row for each of `MOVEMENTS[movement].coordinates`: radians, or lengths in the unit of the mechanism.
     `pitch` is the advance per turn of `T_screw`, and `curve` the curve, or the surface, that a movement follows, in the
@@ -290,7 +290,7 @@ def displace_point(
     curve: Followed | None,
     back: bool,
 ) -> Float[Array, "3 poses"]:
-    """Displace a point by a movement T, or `back` by its inverse, in the axes of the frame; arguments as of `displaced`."""
+    """Displace a point by a movement T, or `back` by its inverse, in the axes of the frame, as in `displaced`."""
     followed = None if curve is None else curve.spline(jnp).at(*q, xp=jnp)
     rows = tuple(point)
     for element in MOVEMENTS[movement].elements[:: 1 if back else -1]:
