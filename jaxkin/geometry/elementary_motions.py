@@ -86,8 +86,11 @@ def _of(name: str, point: FollowedPoint | None) -> Any:
     return getattr(point, name)
 
 
-def displaced_columns(columns: Sequence[Any], axis: int, advance: Any, turn: tuple[Any, ...] | None) -> list[Any]:
-    """Multiply frames F by an elementary motion E from the right, F E, in numpy, JAX or other arithmetic.
+def displaced_columns(
+    columns: Sequence[Any], axis: int, advance: Any, turn: tuple[Any, ...] | None, back: bool = False
+) -> list[Any]:
+    """Multiply frames F by an elementary motion E from the right, F E, or `back` by its inverse, in numpy, JAX or other
+    arithmetic.
 
     `columns` are the four columns of F: its axes x, y, z and its origin. E translates by the length `advance` along the
     axis 0, 1, 2 (x, y, z) of the frame, and rotates about it by the angle with (cosine, sine) `turn`; None for one of
@@ -96,9 +99,9 @@ def displaced_columns(columns: Sequence[Any], axis: int, advance: Any, turn: tup
     i, j, k = axis, (axis + 1) % 3, (axis + 2) % 3
     columns = list(columns)
     if advance is not None:
-        columns[3] = columns[3] + columns[i] * advance
+        columns[3] = columns[3] + columns[i] * (-advance if back else advance)
     if turn is not None:
-        cos, sin = turn
+        cos, sin = turn[0], -turn[1] if back else turn[1]
         columns[j], columns[k] = columns[j] * cos + columns[k] * sin, columns[k] * cos - columns[j] * sin
     return columns
 
