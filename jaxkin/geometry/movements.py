@@ -274,10 +274,8 @@ def displaced(
     """
     point = None if curve is None else curve.spline(jnp).at(*q, xp=jnp)
     for element in MOVEMENTS[movement].elements[:: -1 if back else 1]:
-        advance, turn = amount(element, q[element.coordinate], pitch, point, cos_sin)
-        if back:
-            advance, turn = None if advance is None else -advance, None if turn is None else (turn[0], -turn[1])
-        columns = displaced_columns([frame[:, column] for column in range(4)], element.axis, advance, turn)
+        how_far = amount(element, q[element.coordinate], pitch, point, cos_sin)
+        columns = displaced_columns([frame[:, column] for column in range(4)], element.axis, *how_far, back)
         frame = jnp.stack(jnp.broadcast_arrays(*columns), axis=1)
     return frame
 

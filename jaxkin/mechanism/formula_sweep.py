@@ -35,7 +35,7 @@ from jaxkin.solve.system.state import turning
 CHUNK = 384
 """Poses of one call of the program, enough for one a degree. A call costs a CPU as much as some 200 poses of a
 four-bar."""
-OFTEN = 32
+OFTEN = 3
 """Calls with the same number of poses from which on a program of its own collects what is found by joint. To do that on
 the host takes 0.1 ms longer, to trace and compile that program some 90 of the processor."""
 
