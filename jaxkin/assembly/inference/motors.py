@@ -29,9 +29,10 @@ def motor_shafts(known: Known, fastening: Collection[str]) -> list[Inference]:
     body, result = known.body, []
     for each in (*embedded_pins(known, fastening), *_in_blind_holes(known, fastening)):
         for shaft, housing in (each.parts, each.parts[::-1]):
-            if shaft not in fastening or shaft in known.fixed:
-                continue
-            pin = max((bore for bore in known.bores[shaft] if not bore.hole), key=lambda bore: bore.half)
+            pins = [bore for bore in known.bores[shaft] if not bore.hole]
+            if not pins or shaft not in fastening or shaft in known.fixed:
+                continue  # a nut has holes only
+            pin = max(pins, key=lambda bore: bore.half)
             hubs = [part for part in known.names if body[part] == body[shaft] and part not in fastening]
             around = screw_holes(known.bores[housing], pin)
             if not hubs or body[housing] == body[shaft] or not around:
