@@ -34,6 +34,8 @@ MIN_PIN = 0.4
 MAX_CROSS = 0.4
 """Radius of bores on other axes than that of a fastener, over the smallest one on it: holes for cotter pins, lock wire
 and the screw of a flag have up to a third."""
+MAX_END_HOLE = 0.5
+"""Length of a small hole along a pin over that of the pin, at most, to be one in its end, as that of a grease nipple."""
 MAX_EXPOSED = 1.0
 """Length of a pin outside of its holes, over the length inside: rods that something slides on have more."""
 
@@ -50,7 +52,7 @@ def fasteners(parts: Sequence[Part], bores: Sequence[Bore], every: Mapping[str, 
     by_part: dict[str, list[Bore]] = {}
     for bore in bores:
         by_part.setdefault(bore.part, []).append(bore)
-    by_part = {name: _without_cotters(own) for name, own in by_part.items()}
+    by_part = {name: _without_small_holes(own) for name, own in by_part.items()}
     solids = {part.name: part for part in parts}
     return {
         name
@@ -59,14 +61,19 @@ def fasteners(parts: Sequence[Part], bores: Sequence[Bore], every: Mapping[str, 
     }
 
 
-def _without_cotters(own: Sequence[Bore]) -> list[Bore]:
-    """Leave out the small holes across a pin."""
+def _without_small_holes(own: Sequence[Bore]) -> list[Bore]:
+    """Leave out the small holes across a pin, and those in its ends: it reaches far from these, not from itself."""
     pins = [bore for bore in own if not bore.hole]
     if not pins:
         return [*own]
     first = max(pins, key=lambda bore: bore.half)
     least = MAX_CROSS * min(bore.radius for bore in pins)
-    return [bore for bore in own if not bore.hole or bore.radius > least or bore.on_axis_of(first)]
+
+    def small(bore: Bore) -> bool:
+        in_end = bore.half <= MAX_END_HOLE * first.half or not bore.on_axis_of(first)
+        return bore.hole and bore.radius <= least and in_end
+
+    return [bore for bore in own if not small(bore)]
 
 
 def _on_one_axis(own: Sequence[Bore], every: Sequence[Bore]) -> bool:
@@ -132,7 +139,7 @@ def stacks(
     """Find the stacks of an assembly; `touching` are the pairs of parts with contacts."""
     import networkx as nx  # here, as it takes as long to import as half of JAX
 
-    across = [pair for pair in found if _is_cotter(pair, found, fastening)]
+    across = [pair for pair in found if is_cotter(pair, found, fastening)]
     found = [pair for pair in found if not pair.virtual or {*pair.parts} <= {*fastening}]
     found = [pair for pair in found if pair not in across]
     graph = nx.Graph(pair.parts for pair in found if {*pair.parts} <= {*fastening})
@@ -157,7 +164,7 @@ def stacks(
     return sorted(result, key=lambda stack: order[stack.fasteners[0]])
 
 
-def _is_cotter(pair: CommonAxis, found: Sequence[CommonAxis], fastening: Collection[str]) -> bool:
+def is_cotter(pair: CommonAxis, found: Sequence[CommonAxis], fastening: Collection[str]) -> bool:
     """Tell whether a fastener is in a hole across another one, which is the pin in some hole itself."""
     return (
         not pair.virtual
