@@ -61,7 +61,7 @@ def springs(
     each other without it does.
     """
     pins = [pair for pair in measured.axes(None) if not pair.virtual]
-    outside = {id(pair.one) for pair in pins}
+    set_in = {id(pair.one) for pair in pins if pair.clearance < LOOSE * pair.other.radius}  # bushes; cans are wider
     touching: dict[str, list[Contact]] = {}
     for contact in contacts:
         for part in contact.parts:
@@ -69,10 +69,10 @@ def springs(
     result = []
     for part in measured.parts:
         tube = _tube(part, measured.bores[part.name])
-        if tube is None or part.name in by_hand or id(tube[1]) in outside:
+        if tube is None or part.name in by_hand or id(tube[1]) in set_in:
             continue
         ends = _ends(part.name, tube[0], touching.get(part.name, []))
-        rod = None if ends is None else _rod(measured, tube[0], ends)
+        rod = None if ends is None else _rod(measured, *tube, ends)
         if ends is None or rod is None:
             continue
         clearance = tube[0].radius - rod.radius
@@ -99,13 +99,14 @@ def _tube(part: Part, own: Sequence[Bore]) -> tuple[Bore, Bore] | None:
     return (hole, pin) if thin and hole.on_axis_of(pin) else None
 
 
-def _rod(measured: Measured, hole: Bore, ends: Collection[str]) -> Bore | None:
+def _rod(measured: Measured, hole: Bore, outside: Bore, ends: Collection[str]) -> Bore | None:
     """Find the thickest pin that a tube is about, whatever its room; pilots of the parts at its ends are none, however
-    they fit."""
+    they fit, nor is the can that is about the tube."""
     found = []
     for part, own in measured.bores.items():
         for bore in own if part != hole.part else ():
-            shared = 0.0 if bore.hole or not bore.on_axis_of(hole) else shared_length(bore, hole)
+            within = not bore.hole and bore.radius < outside.radius
+            shared = 0.0 if not within or not bore.on_axis_of(hole) else shared_length(bore, hole)
             if shared > (PILOT * 2 * hole.half if part in ends else 0.0):
                 found.append(bore)
     return max(found, key=lambda bore: bore.radius, default=None)
