@@ -158,7 +158,8 @@ def _take_hubs_and_find_fasteners(known: Known) -> set[str]:
     rings = {name for each in known.measured.bearings for name in (each.outer, each.inner)}
     fastening -= rings | known.sleeves | known.closed
     fastening -= sliding_rods(known, set_in) | hollow_axles(known) | driven | barrels(set_in)
-    fastening -= rollers(known, fastening) | blocks_between_walls(known, fastening)
+    known.blocks = blocks_between_walls(known, fastening)
+    fastening -= rollers(known, fastening) | known.blocks
     fastening -= {each.screw.part for each in lead_nuts(known)}
     known.take([*squared_hubs(known, fastening), *pressed_on_shoulders(known, fastening)])
     known.take(locked_threads(known, fastening))

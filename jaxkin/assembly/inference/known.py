@@ -68,6 +68,8 @@ class Known:
         """Bushes that are in another part, which they leave only by sliding."""
         self.springs: set[str] = set()
         """Springs, which stop nothing."""
+        self.blocks: set[str] = set()
+        """Blocks on a pin between walls, which have the form of a nut."""
         self.rings: set[Pair] = set()
         """The outer and the inner ring of each bearing, which are never one body; of a bearing that is one ring, that
         and what is in its hole."""
