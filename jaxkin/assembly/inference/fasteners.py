@@ -35,7 +35,7 @@ MAX_CROSS = 0.4
 """Radius of bores on other axes than that of a fastener, over the smallest one on it: holes for cotter pins, lock wire
 and the screw of a flag have up to a third."""
 MAX_END_HOLE = 0.5
-"""Length of a small hole along a pin over that of the pin, at most, to be one in its end, as that of a grease nipple."""
+"""Length of a small hole along a pin over that of the pin, at most, to be one in its end, as for a grease nipple."""
 MAX_EXPOSED = 1.0
 """Length of a pin outside of its holes, over the length inside: rods that something slides on have more."""
 
