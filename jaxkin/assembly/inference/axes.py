@@ -251,3 +251,15 @@ def _sleeved(pair: CommonAxis, pins: Sequence[CommonAxis]) -> bool:
         if beside and (fits or not each.tight) and shared_length(each.other, pair.other) > apart:
             return True
     return False
+
+
+def plugged_holes(found: Sequence[CommonAxis]) -> set[int]:
+    """Find the holes, by their identity, with nothing in them but what is in no other part, as a grease nipple is: a
+    screw in the end of a ram goes through what it holds there."""
+    where: dict[str, set[str]] = {}
+    for pair in found:
+        where.setdefault(pair.one.part, set()).add(pair.other.part)
+    inside: dict[int, set[str]] = {}
+    for pair in found:
+        inside.setdefault(id(pair.other), set()).add(pair.one.part)
+    return {hole for hole, parts in inside.items() if all(len(where[part]) == 1 for part in parts)}

@@ -43,16 +43,18 @@ _PARALLEL = float(np.cos(0.01))
 """Cosine of the angle up to which the axes of a pattern are parallel: bolts are drawn askew by no hundredth."""
 
 
-def fasteners(parts: Sequence[Part], bores: Sequence[Bore], every: Mapping[str, Sequence[Bore]]) -> set[str]:
+def fasteners(
+    parts: Sequence[Part], bores: Sequence[Bore], every: Mapping[str, Sequence[Bore]], plugged: Collection[int] = ()
+) -> set[str]:
     """Find the parts that have the form of a fastener: all bores on one axis, and nothing far from that axis.
 
     `bores` are those on an axis with others; of all other bores of a part, which are in `every`, small ones across are
-    those of cotter pins.
+    those of cotter pins. Holes that are `plugged_holes` do not count where they are small ones in an end.
     """
     by_part: dict[str, list[Bore]] = {}
     for bore in bores:
         by_part.setdefault(bore.part, []).append(bore)
-    by_part = {name: _without_small_holes(own) for name, own in by_part.items()}
+    by_part = {name: _without_small_holes(own, plugged) for name, own in by_part.items()}
     solids = {part.name: part for part in parts}
     return {
         name
@@ -61,8 +63,8 @@ def fasteners(parts: Sequence[Part], bores: Sequence[Bore], every: Mapping[str, 
     }
 
 
-def _without_small_holes(own: Sequence[Bore]) -> list[Bore]:
-    """Leave out the small holes across a pin, and those in its ends: it reaches far from these, not from itself."""
+def _without_small_holes(own: Sequence[Bore], plugged: Collection[int]) -> list[Bore]:
+    """Leave out the small holes across a pin, and those in its ends that are plugged."""
     pins = [bore for bore in own if not bore.hole]
     if not pins:
         return [*own]
@@ -70,8 +72,8 @@ def _without_small_holes(own: Sequence[Bore]) -> list[Bore]:
     least = MAX_CROSS * min(bore.radius for bore in pins)
 
     def small(bore: Bore) -> bool:
-        in_end = bore.half <= MAX_END_HOLE * first.half or not bore.on_axis_of(first)
-        return bore.hole and bore.radius <= least and in_end
+        in_end = bore.half <= MAX_END_HOLE * first.half and id(bore) in plugged
+        return bore.hole and bore.radius <= least and (in_end or not bore.on_axis_of(first))
 
     return [bore for bore in own if not small(bore)]
 
