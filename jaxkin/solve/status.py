@@ -40,11 +40,13 @@ problems, assembly modes and workspaces.
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
+
+Statuses = TypeVar("Statuses", Array, np.ndarray)
 
 
 class Status(IntEnum):
@@ -160,7 +162,7 @@ def classify(
     return jnp.where(jnp.isfinite(residual_norm), status, Status.NONFINITE.value).astype(jnp.int32)
 
 
-def is_closed_on_branch(status: Int[Array | np.ndarray, " poses"]) -> Bool[Array | np.ndarray, " poses"]:
+def is_closed_on_branch(status: Statuses) -> Statuses:
     """Tell which poses have all loops closed on the branch of the assembled pose, within limits of joints or not."""
     return (status == Status.CLOSED.value) | (status == Status.LIMITED.value)
 
