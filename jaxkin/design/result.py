@@ -17,7 +17,7 @@ from jaxkin.geometry.characteristic_length import centroid_and_length
 from jaxkin.geometry.movements import is_length
 from jaxkin.linkage.record import as_record, from_record
 from jaxkin.mechanism.mechanism import Mechanism
-from jaxkin.solve.status import Status, is_closed_on_branch
+from jaxkin.solve.status import CLOSED_ON_BRANCH, Status
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.motion import Motion
@@ -209,7 +209,7 @@ def _steepest(motion: Motion) -> float:
     pace = np.sqrt(sum(np.diff(np.asarray(values)) ** 2 for values in motion.inputs.values()))
     origins = np.concatenate([np.asarray(joint.frames_1)[:, :3, 3] for joint in joints])
     size = float(centroid_and_length(origins, np)[1])
-    closed = is_closed_on_branch(np.asarray(motion.status))
+    closed = np.isin(motion.status, CLOSED_ON_BRANCH)
     steepest, both = 0.0, closed[1:] & closed[:-1] & (pace > 0)
     for joint, moved in zip(joints, motion.displacements, strict=True):
         for name, column in zip(joint.coordinates, np.asarray(moved).T, strict=True):

@@ -40,13 +40,11 @@ problems, assembly modes and workspaces.
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple
 
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
-
-Statuses = TypeVar("Statuses", Array, np.ndarray)
 
 
 class Status(IntEnum):
@@ -162,9 +160,14 @@ def classify(
     return jnp.where(jnp.isfinite(residual_norm), status, Status.NONFINITE.value).astype(jnp.int32)
 
 
-def is_closed_on_branch(status: Statuses) -> Statuses:
-    """Tell which poses have all loops closed on the branch of the assembled pose, within limits of joints or not."""
-    return (status == Status.CLOSED.value) | (status == Status.LIMITED.value)
+CLOSED_ON_BRANCH = (Status.CLOSED.value, Status.LIMITED.value)
+"""Of poses with all loops closed on the branch of the assembled pose, within limits of joints or not."""
+
+
+def is_closed_on_branch(status: Int[Array, " poses"]) -> Bool[Array, " poses"]:
+    """Tell which poses are `CLOSED_ON_BRANCH`."""
+    closed, limited = CLOSED_ON_BRANCH
+    return (status == closed) | (status == limited)
 
 
 def closes_before_limits(status: Int[Array, " poses"]) -> Bool[Array, " poses"]:
