@@ -47,7 +47,7 @@ _NEARLY_EXACT = 1e-11
 """Misalignment, same units, up to which loops may seem to move as they are, and count as planar, for all of which they
 are open by more than the tolerance of closed poses; twists found by least squares leave as much."""
 _SLACK = 10.0
-"""Residual over rounding that is left where twists are followed by what makes axes exact: a tenth of what is closed."""
+"""Residual over rounding that is left where axes are made exactly parallel after twists: below the tolerance by ten."""
 _MIN_NAMED_SHARE = 0.5
 """A note names the joints that moved by more than this share of the largest move."""
 
@@ -150,7 +150,7 @@ def _aligned_group(linkage: Linkage, loop_group: LoopGroup, noise: float) -> tup
             continue
         if np.linalg.norm(found.residual) <= rounding(loops):
             if found.moved >= STILL:
-                again = _nearly_exact(given)
+                again = _nearly_exact(given) if noise else given
                 return 0.0, again if _correction(given, again) else given
             continue  # closed, but back at the assembled pose
         if level and (joints := _joints_that_move(linkage, loop_group, level)):

@@ -16,3 +16,6 @@ def test_axes_out_of_parallel_by_what_loops_hide_become_parallel():
         for group in mechanism.structure.uncoupled_groups:
             axes = np.array([mechanism.all_joints[number].frames_1[0, :3, 2] for number in group.joints])
             assert np.array_equal(axes, axes[0] * np.sign(axes @ axes[0])[:, None])
+        given = Mechanism.build(fixed=list(exact.fixed), joints=joints, align=0)
+        for one, other in zip(given.all_joints, joints, strict=True):
+            assert np.array_equal(one.frames_1, other.frames_1), "0 moves nothing"
