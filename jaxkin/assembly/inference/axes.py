@@ -185,7 +185,7 @@ def _fits(pair: CommonAxis, clearance: float | None) -> bool:
     loose, radius = pair.clearance, pair.other.radius
     centred = pair.offset <= max(loose, 0.0) + MAX_OFFSET * radius
     most = MAX_CLEARANCE * radius if clearance is None else clearance
-    return -MAX_THREAD * radius <= loose <= most and centred and engaged(pair) > MIN_ENGAGED * radius
+    return bool(-MAX_THREAD * radius <= loose <= most and centred and engaged(pair) > MIN_ENGAGED * radius)
 
 
 def _equal(pair: CommonAxis) -> bool:
@@ -194,7 +194,7 @@ def _equal(pair: CommonAxis) -> bool:
     most = MAX_LOOSE if is_eye_in_fork(pair) else MAX_TAPPED
     if pair.offset > MAX_OFFSET * radius or abs(pair.clearance) > most * radius:
         return False
-    return -engaged(pair) <= (MIN_ENGAGED if pair.tapped else MAX_AXIAL_GAP) * radius
+    return bool(-engaged(pair) <= (MIN_ENGAGED if pair.tapped else MAX_AXIAL_GAP) * radius)
 
 
 def is_eye_in_fork(pair: CommonAxis) -> bool:
