@@ -227,7 +227,8 @@ def _take_joints_between_bodies(known: Known, fastening: Collection[str]) -> _St
     others = hinges(known, fastening)
     joined = [*turning, *(each for each in others if {body[part] for part in each.inference.parts} not in borne)]
     guided = guided_on_faces(known)
-    joined += [*set_on_pins(known, joined, guided), *guided]
+    sliding = [*(each.inference for each in guided), *carriages(known)]
+    joined += [*set_on_pins(known, joined, sliding), *guided]
     known.take(floating(known, joined))
     known.take(held_studs(known, joined, fastening))
     known.take([each.inference for each in joined if not each.replaces_slide and each not in turning])

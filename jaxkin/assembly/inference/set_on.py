@@ -26,12 +26,12 @@ MAX_BEARING_OFFSET = 0.02
 
 
 def set_on_pins(
-    known: Known, joined: Sequence[StoppedJoint], guided: Sequence[StoppedJoint] = ()
+    known: Known, joined: Sequence[StoppedJoint], guided: Sequence[Inference] = ()
 ) -> list[StoppedJoint]:
     """Find bodies that do not move on the pin that they fit exactly, though exact contacts let them slide.
 
-    What is `joined` by a hinge already is left to that, and what is `guided` along the pin by faces of a third body
-    slides there, as on a lead screw.
+    What is `joined` by a hinge already is left to that, and what is `guided` along the pin by faces or on wheels of a
+    third body slides there, as on a lead screw.
     """
     body, result = known.body, []
     hinged = {frozenset(body[part] for part in each.inference.parts) for each in joined}
@@ -46,10 +46,12 @@ def set_on_pins(
             )
             text += f" of a radius of {pair.other.radius:.4g}: it would jam on a slide"
             result.append(_held(known, pair, text, ("length", length), Stop.SHORT))
+        elif _slides_along(known, pair, guided):
+            continue
         elif other := _turning(known, line, turning):
             text = f"it fits the shaft of {pair.one.part!r} exactly, which turns in {other!r}: it turns with it"
             result.append(_held(known, pair, text, ("clearance", pair.clearance), Stop.TIGHT))
-        elif all(line.pins) and not _slides_along(known, pair, guided) and (play := _looser(known, pair)):
+        elif all(line.pins) and (play := _looser(known, pair)):
             text = f"it fits the pin of {pair.one.part!r} exactly, on which others have a play of {play:.2g}"
             result.append(_held(known, pair, text, ("play", play), Stop.TIGHT))
     return result
@@ -79,14 +81,14 @@ def _jams(known: Known, line: Line) -> float | None:
     return guided if guided < MIN_GUIDED * pair.other.radius else None
 
 
-def _slides_along(known: Known, pair: CommonAxis, guided: Sequence[StoppedJoint]) -> bool:
-    """Tell whether faces of a third body guide what is on a pin along it."""
+def _slides_along(known: Known, pair: CommonAxis, guided: Sequence[Inference]) -> bool:
+    """Tell whether a third body guides what is on a pin along it."""
     body = known.body
     owner, hub = body[pair.one.part], body[pair.other.part]
     for each in guided:
-        owners = {body[part] for part in each.inference.parts}
-        if hub in owners and owner not in owners and each.inference.joint is not None:
-            axis = np.asarray(each.inference.joint.frames_1, float)[0, :3, 2]
+        owners = {body[part] for part in each.parts}
+        if hub in owners and owner not in owners and each.joint is not None:
+            axis = np.asarray(each.joint.frames_1, float)[0, :3, 2]
             if np.linalg.norm(np.cross(axis, pair.one.axis)) < ACROSS:
                 return True
     return False

@@ -30,7 +30,7 @@ def test_proposals_measure_each_part_once(monkeypatch):
     detected = counted(monkeypatch, assembly_module, "find_contacts")
     fitted = counted(monkeypatch, measured, "bores")
     rolling = counted(monkeypatch, measured, "bearings")
-    made = counted(monkeypatch, assembly_module, "inferred")
+    made = counted(monkeypatch, assembly_module, "with_inferences")
     assembly = jk.load(path("fourbar"))  # flanges that are bolted together are one body, with one proposal
     found = assembly.without([]).proposals()
     assert len(found) > 1

@@ -12,7 +12,7 @@ import trimesh
 from jaxkin.geometry.part import moved
 from jaxkin.geometry.surfaces import Sphere
 from jaxkin.joints.evidence import EvidenceKind
-from reference.round_parts import SEEDS, anywhere, assembly, block, moving, owners, part, pin, ring
+from reference.round_parts import SEEDS, across, anywhere, assembly, block, moving, owners, part, pin, ring
 
 
 def of(drawn, seed, fixed="base"):
@@ -88,16 +88,17 @@ def test_two_spacers_without_their_screws_hold_two_plates_together(seed, count, 
     assert (body["plate"] == body["base"]) or not held
 
 
-def carriage(gap, both):
+def carriage(gap, both, *, on_base=(), on_plate=(), others=()):
     """A plate with four wheels between the cheeks of a rail along y, or beside one of them."""
     radius = 12.0
     wide = 40.0 + radius + gap
     cheeks = [block((wide, -200, -3), (wide + 10, 200, 9))]
     cheeks += [block((-wide - 10, -200, -3), (-wide, 200, 9))] if both else []
-    base = part("base", *cheeks, block((-wide - 10, -200, -40), (wide + 10, 200, -30)))
+    base = part("base", *cheeks, block((-wide - 10, -200, -40), (wide + 10, 200, -30)), *on_base)
     places = [(x, y) for x in (-40.0, 40.0) for y in (-30.0, 30.0)]
-    plate = part("plate", *(ring(2.6, 8.0, -8, 0, at) for at in places), block((-31, -38, -8), (31, 38, 0)))
-    parts = [base, plate]
+    holes = [ring(2.6, 8.0, -8, 0, at) for at in places]
+    plate = part("plate", *holes, block((-31, -38, -8), (31, 38, 0)), *on_plate)
+    parts = [base, plate, *others]
     for k, at in enumerate(places):
         parts += [part(f"washer {k}", ring(2.6, 5.0, 0, 1, at)), *wheel(f"wheel {k}", at, 1.0, radius=radius)]
     return assembly(*parts)
@@ -112,6 +113,28 @@ def test_wheels_between_two_rails_leave_a_carriage_one_slide(seed, gap):
     axis = np.asarray(slide.frames_1)[0][:3, 2]
     lengths = [np.ptp(rail.triangles.reshape(-1, 3) @ face.surface.normal) for face in rail.faces]
     assert np.ptp(rail.triangles.reshape(-1, 3) @ axis) == pytest.approx(max(lengths), rel=1e-6)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_carriage_on_wheels_slides_along_a_screw_that_it_fits_exactly(seed):
+    """The screw turns in its bearing; a wheel on it would turn with it, but the nut of a carriage does not."""
+    place = np.array([[0.0, -1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, -19.0], [0.0, 0.0, 0.0, 1.0]])
+
+    def along_y(*pieces):
+        return [(face.surface, face.triangles) for face in moved(part("", across(*pieces)), place).faces]
+
+    screw = part("screw", along_y(pin(4.0, -215, 190), pin(7.0, -199.8, -197), pin(7.0, -213, -210.2)))
+    drawn = carriage(
+        0.1,
+        both=True,
+        on_base=[along_y(ring(4.2, 9.0, -210, -200))],
+        on_plate=[along_y(ring(4.0, 9.0, -8, 8)), block((-4, -8, -10.5), (4, 8, -8))],
+        others=[screw],
+    )
+    body, mechanism = of(drawn, seed)
+    assert len({body[each] for each in ("base", "plate", "screw")}) == 3
+    slides = [joint for joint in moving(mechanism) if joint.kind == "prismatic"]
+    assert [{body[each] for each in joint.parts} for joint in slides] == [{body["base"], body["plate"]}]
 
 
 def test_wheels_beside_one_rail_guide_nothing():
