@@ -25,9 +25,7 @@ MAX_BEARING_OFFSET = 0.02
 """Distance of the axis of a bearing from that of its shaft, over the radius of the shaft, at most."""
 
 
-def set_on_pins(
-    known: Known, joined: Sequence[StoppedJoint], guided: Sequence[Inference] = ()
-) -> list[StoppedJoint]:
+def set_on_pins(known: Known, joined: Sequence[StoppedJoint], guided: Sequence[Inference] = ()) -> list[StoppedJoint]:
     """Find bodies that do not move on the pin that they fit exactly, though exact contacts let them slide.
 
     What is `joined` by a hinge already is left to that, and what is `guided` along the pin by faces or on wheels of a
