@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from jaxkin.assembly.inference.axes import CommonAxis, engaged, plugged_holes
+from jaxkin.assembly.inference.axes import CommonAxis, engaged
 from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.covers import covered_by
 from jaxkin.assembly.inference.fasteners import MAX_NUT, Stack, away_from, bolted, is_cotter, patterns
@@ -247,14 +247,13 @@ def rollers(known: Known, fastening: Collection[str]) -> set[str]:
     """Find the round parts on a pin that lie flat on nothing, and are long, wide, or have much play: rollers, planets
     and cutting wheels, no nuts or washers. A pin with a cotter across it, which is in nothing else, is none: it
     does not turn about that, as a piston has a pin across that is in its rod, too."""
-    plugged = plugged_holes(known.axes)
     lying = {part for each in known.contacts if each.contact_state.is_flat for part in each.parts}
     result = set()
     for pair in known.axes:
         name, radius = pair.other.part, pair.other.radius
         if pair.virtual or name not in fastening or name in lying:
             continue
-        if id(pair.other) in plugged and is_cotter(pair, known.axes, fastening):
+        if id(pair.other) in known.plugged and is_cotter(pair, known.axes, fastening):
             continue
         own, half = known.bores[name], pair.other.half
         long = half >= LONG * radius / 2 and any(not bore.hole for bore in own) and is_round(known, name, own)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from typing import NamedTuple
 
-from jaxkin.assembly.inference.axes import plugged_holes
 from jaxkin.assembly.inference.ball_joints import ball_joints
 from jaxkin.assembly.inference.ball_studs import held_studs
 from jaxkin.assembly.inference.bearing_joints import bearing_bodies, bearing_joints
@@ -151,8 +150,8 @@ def _take_hubs_and_find_fasteners(known: Known) -> set[str]:
     driven = driven_sleeves(known, set_in)
     set_in = [each for each in set_in if each.part not in driven]
     known.take(seated_sleeves(known, set_in))
-    bores, plugged = [bore for pair in known.axes for bore in (pair.one, pair.other)], plugged_holes(known.axes)
-    fastening = fasteners(known.parts, bores, known.bores, plugged)
+    bores = [bore for pair in known.axes for bore in (pair.one, pair.other)]
+    fastening = fasteners(known.parts, bores, known.bores, known.plugged)
     known.take(clamped_hubs(known, fastening))
     known.sleeves = {each.part for each in set_in} - {*known.fixed}
 

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from jaxkin.assembly.inference.axes import CommonAxis
+from jaxkin.assembly.inference.axes import CommonAxis, plugged_holes
 from jaxkin.assembly.inference.bores import NEAR_LENGTH, Bore, near_axis
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.measured import Measured
@@ -83,6 +83,11 @@ class Known:
         self.sockets = [each for each in sockets(self.parts, clearance) if frozenset(each.parts) not in ignored]
         self.axes = [pair for pair in found if not pair.tapped and not self._is_neck(pair)]
         self.tapped = [pair for pair in found if pair.tapped]
+
+    @cached_property
+    def plugged(self) -> set[int]:
+        """Numbers (`id`) of the holes that are plugged: see `plugged_holes`."""
+        return plugged_holes(self.axes)
 
     @cached_property
     def slot_ends(self) -> set[int]:

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from jaxkin.assembly.inference.axes import CommonAxis, engaged, plugged_holes
+from jaxkin.assembly.inference.axes import CommonAxis, engaged
 from jaxkin.assembly.inference.bearings import ROUND
 from jaxkin.assembly.inference.bores import Bore, merged
 from jaxkin.assembly.inference.inference import Inference
@@ -133,10 +133,12 @@ def _is_shared(known: Known, sleeve: Sleeve) -> bool:
 def hollow_axles(known: Known) -> set[str]:
     """Find the parts with a hole that are held on both sides of a hole that they are in: what is there turns on them.
     A pin whose hole is plugged, as by a grease nipple, is none."""
-    plugged, result = plugged_holes(known.axes), set()
+    result = set()
     for pair in known.axes:
         name, along = pair.one.part, pair.one.axis
-        if pair.virtual or not any(bore.hole and id(bore) not in plugged for bore in known.bores_on(name, pair.one)):
+        if pair.virtual or not any(
+            bore.hole and id(bore) not in known.plugged for bore in known.bores_on(name, pair.one)
+        ):
             continue
         low, high = pair.other.reach(along)
         others = [each.other for each in known.axes if each.one.part == name and each.other.part != pair.other.part]
