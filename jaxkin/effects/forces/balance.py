@@ -39,8 +39,9 @@ from jaxkin.effects.forces.balance_equations import (
     hessian,
     stacked,
 )
-from jaxkin.effects.forces.joint_balance import JointBalance, Wrenches
-from jaxkin.effects.forces.screws import Places, Scale, Twist, cross
+from jaxkin.effects.forces.joint_balance import JointBalance, Wrenches, joint_balances, norm_gradients, norm_hessians
+from jaxkin.effects.forces.places import Places
+from jaxkin.effects.forces.screws import Scale, Twist, cross
 from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.joints.joint import Joint, JointCoordinate
@@ -147,7 +148,7 @@ def _solve(
     free = [
         [k for k in range(each.freedoms) if (number, k) not in driven] for number, each in enumerate(linkage.joints)
     ]
-    joints = [JointBalance.of(arm, every, own) for arm, every, own in zip(found.arms, found.screws, free, strict=True)]
+    joints = joint_balances(found.arms, found.screws, free)
     none = jnp.zeros(poses)
 
     def in_free(given: dict[JointCoordinate, Array]) -> list[Float[Array, "free poses"]]:
@@ -159,7 +160,7 @@ def _solve(
     wrenches = [carried_by.get(number, jnp.zeros((6, poses))) for number in range(len(linkage.joints))]
     strengths = [none] * len(ties)
     for loops in balanced_loops(linkage):
-        of_joints, of_couplings = _solve_loops(loops, joints, wrenches, loads, ties, poses)
+        of_joints, of_couplings = _solve_loops(loops, found.arms, joints, wrenches, loads, ties, poses)
         for number, wrench in zip(loops.joints, of_joints, strict=True):
             wrenches[number] = wrench
         for number, strength in zip(loops.couplings, of_couplings, strict=True):
@@ -177,6 +178,7 @@ def _solve(
 
 def _solve_loops(
     loops: BalancedLoops,
+    every_arm: Sequence[Float[Array, "3 poses"]],
     every: Sequence[JointBalance],
     carried: Sequence[Wrenches],
     every_load: Sequence[Float[Array, "free poses"]],
@@ -187,17 +189,19 @@ def _solve_loops(
 
     What is given is that of all joints and couplings: `carried` are the wrenches w_0.
     """
-    joints, begun, loads = ([given[number] for number in loops.joints] for given in (every, carried, every_load))
+    joints = [every[number] for number in loops.joints]
+    begun, loads = ([given[number] for number in loops.joints] for given in (carried, every_load))
     ties = [[every_tie[coupling][number] for number in loops.joints] for coupling in loops.couplings]
     if not (loops.chords or ties):
         return begun, []
     system = equations(loops, joints, ties, poses)
     load = stacked([joint.scaled(own) for joint, own in zip(joints, loads, strict=True)], poses)
     right = load - stacked([joint.scaled(joint.along(w)) for joint, w in zip(joints, begun, strict=True)], poses)
-    by_wrenches = [joint.norm_gradient(w) for joint, w in zip(joints, begun, strict=True)]
-    by_chords = column_sums(system.chords, load) - gradient_by_chords(loops, by_wrenches, poses)
+    arms = jnp.stack([every_arm[number] for number in loops.joints], axis=1)
+    by_wrenches = norm_gradients(arms, jnp.stack(begun, axis=1))
+    by_chords = column_sums(system.chords, load) - gradient_by_chords(loops, by_wrenches)
     slope = jnp.concatenate([by_chords, column_sums(system.couplings, right)])
-    z = minimise_constrained(hessian(loops, joints, system, poses), slope, system.rows, right)
+    z = minimise_constrained(hessian(loops, norm_hessians(arms), system), slope, system.rows, right)
     count = 6 * len(loops.chords)
     unknown = z[:count].reshape(len(loops.chords), 6, poses)
     found = [

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from jaxkin.effects.forces.joint_balance import JointBalance, Wrenches
+from jaxkin.effects.forces.joint_balance import JointBalance
 from jaxkin.linkage.linkage import Linkage
 
 
@@ -70,7 +70,9 @@ class Equations(NamedTuple):
         return jnp.concatenate([self.chords, self.couplings], axis=1)
 
 
-def equations(loops: BalancedLoops, joints: Sequence[JointBalance], ties: Sequence[Sequence[Array]], poses: int) -> Equations:
+def equations(
+    loops: BalancedLoops, joints: Sequence[JointBalance], ties: Sequence[Sequence[Array]], poses: int
+) -> Equations:
     """Collect the equations T S^T w = T (t + g f) of all joints; `ties` are the gradients g of couplings, by joint."""
     by_chords, by_couplings = [jnp.zeros((0, 6 * len(loops.chords), poses))], [jnp.zeros((0, len(ties), poses))]
     for number, (joint, shares) in enumerate(zip(joints, loops.shares, strict=True)):
@@ -81,26 +83,25 @@ def equations(loops: BalancedLoops, joints: Sequence[JointBalance], ties: Sequen
     return Equations(jnp.concatenate(by_chords), jnp.concatenate(by_couplings))
 
 
-def _hessian_by_chords(loops: BalancedLoops, each: Sequence[Array], poses: int) -> Float[Array, "wrenches wrenches poses"]:
+def _signed_sum(signs: Sequence[int], each: Float[Array, "*rows joints poses"]) -> Float[Array, "*rows poses"]:
+    """Add up what belongs to each joint with its sign: -1, 0 or 1."""
+    terms = (sign * each[..., joint, :] for joint, sign in enumerate(signs) if sign)
+    return sum(terms, jnp.zeros_like(each[..., 0, :]))
+
+
+def _hessian_by_chords(
+    loops: BalancedLoops, each: Float[Array, "6 6 joints poses"]
+) -> Float[Array, "wrenches wrenches poses"]:
     """Compute a Hessian by the wrenches of the chords from those by the wrench of each joint, by the chain rule."""
-    chords, none = len(loops.chords), jnp.zeros((6, 6, poses))
-    rows = [
-        [
-            sum((own[a] * own[b] * x for own, x in zip(loops.shares, each, strict=True) if own[a] * own[b]), none)
-            for b in range(chords)
-        ]
-        for a in range(chords)
-    ]
-    return jnp.concatenate([jnp.concatenate(row, axis=1) for row in rows]) if rows else jnp.zeros((0, 0, poses))
+    chords = range(len(loops.chords))
+    rows = [[_signed_sum([own[a] * own[b] for own in loops.shares], each) for b in chords] for a in chords]
+    return jnp.concatenate([jnp.concatenate(row, axis=1) for row in rows]) if rows else each[:0, :0, 0]
 
 
-def gradient_by_chords(loops: BalancedLoops, each: Sequence[Wrenches], poses: int) -> Float[Array, "wrenches poses"]:
+def gradient_by_chords(loops: BalancedLoops, each: Float[Array, "6 joints poses"]) -> Float[Array, "wrenches poses"]:
     """Compute a gradient by the wrenches of the chords from those by the wrench of each joint, by the chain rule."""
-    rows = [
-        sum((own[c] * x for own, x in zip(loops.shares, each, strict=True) if own[c]), jnp.zeros((6, poses)))
-        for c in range(len(loops.chords))
-    ]
-    return jnp.concatenate(rows) if rows else jnp.zeros((0, poses))
+    rows = [_signed_sum([own[c] for own in loops.shares], each) for c in range(len(loops.chords))]
+    return jnp.concatenate(rows) if rows else each[:0, 0]
 
 
 def stacked(rows: Sequence[Float[Array, "_ poses"]], poses: int) -> Float[Array, "_ poses"]:
@@ -108,9 +109,14 @@ def stacked(rows: Sequence[Float[Array, "_ poses"]], poses: int) -> Float[Array,
     return jnp.concatenate([jnp.zeros((0, poses)), *rows])
 
 
-def hessian(loops: BalancedLoops, joints: Sequence[JointBalance], found: Equations, poses: int) -> Float[Array, "n n poses"]:
-    """Compute the Hessian, by x and f, of what is minimised: see the docstring of `jaxkin.effects.forces.balance`."""
-    by_chords = _hessian_by_chords(loops, [joint.norm_hessian() for joint in joints], poses)
+def hessian(
+    loops: BalancedLoops, by_wrenches: Float[Array, "6 6 joints poses"], found: Equations
+) -> Float[Array, "n n poses"]:
+    """Compute the Hessian, by x and f, of what is minimised: see the docstring of `jaxkin.effects.forces.balance`.
+
+    `by_wrenches` are those of |w|^2 / 2 by the wrench of each joint.
+    """
+    by_chords = _hessian_by_chords(loops, by_wrenches)
     count = found.couplings.shape[1]
     if not count:
         return by_chords
