@@ -22,6 +22,7 @@ from jaxkin.effects.forces.friction import friction
 from jaxkin.effects.forces.friction_result import Friction
 from jaxkin.effects.forces.given import Applied
 from jaxkin.effects.forces.masses import Masses
+from jaxkin.effects.forces.moving_parts import MovingParts
 from jaxkin.effects.forces.pose_groups import by_groups
 from jaxkin.effects.forces.screws import Scale, cross
 from jaxkin.effects.forces.undetermined import Undetermined, undetermined
@@ -30,7 +31,6 @@ from jaxkin.effects.forces.wrenches import (
     Acting,
     ActingNumbers,
     Loads,
-    MovingParts,
     Wrench,
     acting_numbers,
     acting_on,

@@ -10,10 +10,8 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 from typing import Any, NamedTuple
 
-import jax
 import jax.numpy as jnp
 import numpy as np
-from jax import lax
 from jaxtyping import Array, Float
 
 from jaxkin._arguments import check_motion, numbers, several
@@ -22,17 +20,17 @@ from jaxkin._traced import traced
 from jaxkin.effects.forces.changes import Changes
 from jaxkin.effects.forces.friction_of import check_friction
 from jaxkin.effects.forces.given import Applied, Force, JointFriction, JointLoad, Spring, Torque, rows_per_pose
+from jaxkin.effects.forces.inertia import weights_and_inertia
 from jaxkin.effects.forces.masses import Masses
-from jaxkin.effects.forces.places import Places, places, twists_of_parts
-from jaxkin.effects.forces.screws import Scale, Twist, cross, turned, velocity_at, wrench_at
+from jaxkin.effects.forces.moving_parts import MovingParts
+from jaxkin.effects.forces.screws import turned, velocity_at, wrench_at
 from jaxkin.effects.rates import tangents_of
 from jaxkin.geometry.movements import is_length
-from jaxkin.geometry.rigid import Rigid
 from jaxkin.geometry.units import METRES
 from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.mechanism.known_motion import Inputs, Rows
+from jaxkin.mechanism.known_motion import Inputs
 from jaxkin.mechanism.motion import Motion
 from jaxkin.solve.execution.compiler import whole_program
 
@@ -73,28 +71,6 @@ class ActingNumbers(NamedTuple):
     applied: tuple[Load, ...]
 
 
-class MovingParts(NamedTuple):
-    """Where the parts are, and how they move."""
-
-    at: Places
-    displacements: Rows
-    velocity: Rows | None
-    """Rates of all joints; None at rest."""
-    twists: dict[str, Twist]
-    """Of all parts that are not fixed; none at rest."""
-    changes: dict[str, Twist]
-    """Their derivatives."""
-
-    @staticmethod
-    def of(linkage: Linkage, found: Changes, chords: bool) -> MovingParts:
-        """Place the parts, and find their twists."""
-        at = places(linkage, found.displacements, chords)
-        if found.velocity is None:
-            return MovingParts(at, found.displacements, None, {}, {})
-        twists = twists_of_parts(linkage, at, found.velocity, found.acceleration)
-        return MovingParts(at, found.displacements, found.velocity, *twists)
-
-
 @partial(whole_program, static=(0, 1))
 def acting_on(
     unit: str, chords: bool, linkage: Linkage, found: Changes, acting: ActingNumbers
@@ -112,7 +88,7 @@ def loads(linkage: Linkage, unit: str, acting: ActingNumbers, moving: MovingPart
     found: dict[str, Any] = {}
     lever = moving.at.scale.size * METRES[unit]
     if acting.masses is not None:
-        found |= _of_masses(moving, acting.masses, acting.gravity, lever)
+        found |= weights_and_inertia(moving, acting.masses, acting.gravity, lever)
     in_joints: dict[JointCoordinate, Array] = {}
     for each in acting.applied:
         if isinstance(each, JointLoad):
@@ -123,53 +99,6 @@ def loads(linkage: Linkage, unit: str, acting: ActingNumbers, moving: MovingPart
                 if part in moving.at.parts:
                     found[part] = found.get(part, 0.0) + wrench
     return Loads(found, in_joints)
-
-
-def _of_masses(moving: MovingParts, masses: Masses, gravity: Any, lever: Any) -> dict[str, Wrench]:
-    """Compute weight and inertia of all parts that move, at once: one by one, their operations are a long program."""
-    parts = list(moving.at.parts)
-    if not parts:
-        return {}
-    numbers = np.array([masses.parts.index(part) for part in parts])
-    displaced = jnp.stack([moving.at.parts[part] for part in parts])
-    own = tuple(jnp.asarray(each, float)[numbers] for each in (masses.mass, masses.centre, masses.inertia))
-    twists = [jnp.stack([rows[part] for part in parts]) for rows in (moving.twists, moving.changes) if rows]
-    of_mass = partial(_of_mass, moving.at.scale, gravity, lever)
-    # found once: XLA would find all of it anew wherever it is used
-    found = lax.optimization_barrier(jax.vmap(of_mass)(displaced, *own, *twists))
-    return {part: found[place] for place, part in enumerate(parts)}
-
-
-def _of_mass(
-    scale: Scale,
-    gravity: Any,
-    lever: Any,
-    displaced: Rigid,
-    mass: Float[Array, ""],
-    centre: Float[Array, "3"],
-    inertia: Float[Array, "3 3"],
-    twist: Twist | None = None,
-    change: Twist | None = None,
-) -> Wrench:
-    """Compute weight and inertia of a part: the force m (g - a) at its centre, the torque -(I w' + w x I w).
-
-    `displaced` is the part in each pose; without its `twist` and the derivative of that it is at rest.
-    """
-    arm = scale.arm(turned(displaced, centre) + displaced[:, 3])
-    force = mass * gravity[:, None]
-    if twist is None or change is None:
-        return wrench_at(arm, force)
-    turning = twist[:3]
-    acceleration = velocity_at(change, arm) + cross(turning, velocity_at(twist, arm))
-    rotation = displaced[:, :3]
-
-    def times_inertia(vector: Float[Array, "3 poses"]) -> Float[Array, "3 poses"]:
-        """Multiply a vector by R I R^T."""
-        return turned(rotation, turned(inertia[..., None], turned(rotation.swapaxes(0, 1), vector)))
-
-    torque = times_inertia(change[:3]) + cross(turning, times_inertia(turning))
-    wrench = wrench_at(arm, force - mass * lever * acceleration)
-    return jnp.concatenate([wrench[:3] - torque / lever, wrench[3:]])
 
 
 def loads_and_frictions(acting: Acting) -> tuple[tuple[Load, ...], tuple[JointFriction, ...]]:
