@@ -23,7 +23,7 @@ def held_studs(known: Known, joined: Sequence[StoppedJoint], fastening: Collecti
     """Join the two bodies of a hinge with play about an axis through the middle of a ball, where this hinge and the
     ball are all that ties one of them.
 
-    That body would turn between the two, and move nothing else. Studs and bolts are screwed or pressed into what they
+    That body would turn between the two, and move nothing else; a loose ball that rolls in it is no end of it. Studs and bolts are screwed or pressed into what they
     carry the ball for, and rod ends onto their rods. The bolt through the ball of a rod end does not slide either: its
     nut is not drawn.
     """
@@ -46,7 +46,8 @@ def held_studs(known: Known, joined: Sequence[StoppedJoint], fastening: Collecti
             (owner,) = between
             if joint.kind is not JointKind.REVOLUTE and not _is_bolted(known, socket, joint.parts, fastening):
                 continue
-            if {other for tie in ties if owner in tie for other in tie} == owners | around and _rolls(known, around):
+            tied = {other for tie in ties if owner in tie for other in tie}
+            if tied == owners | around and not _is_loose(known, socket) and _rolls(known, around):
                 text = f"{joint.parts[0]!r} and {joint.parts[1]!r} have an axis through the middle of the ball of "
                 text += f"{socket.ball.part!r}, about which that turns in {socket.hole.part!r} already"
                 evidence = Evidence(EvidenceKind.FASTENER, each.inference.evidence.sizes, text)
@@ -63,6 +64,12 @@ def _is_bolted(known: Known, socket: Socket, parts: Sequence[str], fastening: Co
 def _is_on(socket: Socket, point: Vector, axis: Vector) -> bool:
     """Tell whether an axis goes through the middle of a ball."""
     return bool(np.linalg.norm(np.cross(socket.ball.centre - point, axis)) <= MAX_OFFSET * socket.ball.radius)
+
+
+def _is_loose(known: Known, socket: Socket) -> bool:
+    """Tell whether a part is a ball and nothing else, without a hole for a bolt, such as one in a caster."""
+    away = np.linalg.norm(known.solids[socket.ball.part].outermost - socket.ball.centre, axis=1)
+    return not known.bores[socket.ball.part] and bool(away.max() <= (1 + MAX_OFFSET) * socket.ball.radius)
 
 
 def _rolls(known: Known, owners: set[str]) -> bool:

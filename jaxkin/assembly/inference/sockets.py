@@ -14,6 +14,14 @@ from jaxkin.geometry.surfaces import Sphere
 
 MAX_BALL_CLEARANCE = 0.1
 """Radial clearance over the radius of the socket, at most."""
+MAX_CAPTIVE_CLEARANCE = 0.17
+"""The same of a socket that goes round by more than half a sphere: its ball cannot leave it, however loosely it is
+printed, as with 0.3 mm in a socket of 1.8."""
+MAX_CAPTIVE_OFFSET = 0.1
+"""Distance of its centre from that of such a ball beside the clearance, over the radius: a ball of a leaf is drawn
+towards the opening by the gap beside the leaf."""
+MIN_CAPTIVE = 0.52
+"""Share of a whole sphere that such a socket has, at least, as its triangles tell it."""
 MIN_SHARE = 0.2
 """Share of a whole sphere that faces of a ball and of its socket have, at least: rounded corners have an eighth."""
 SAME_SPHERE = 1e-3
@@ -28,6 +36,8 @@ class SphericalFaces(NamedTuple):
     radius: float
     hole: bool
     """Whether the material is outside, as in a socket; otherwise the faces are those of a ball."""
+    share: float
+    """Of a whole sphere that the faces are."""
 
 
 class Socket(NamedTuple):
@@ -55,16 +65,19 @@ def sockets(parts: Iterable[Part], clearance: float | None = None) -> list[Socke
     """Find the balls of parts that are in sockets of others.
 
     `clearance` is the largest radial clearance, in the unit of the file; by default MAX_BALL_CLEARANCE times the
-    radius of the socket.
+    radius of the socket, MAX_CAPTIVE_CLEARANCE times where it keeps its ball.
     """
     spheres = [sphere for part in parts for sphere in _spheres(part)]
     found = []
     for hole in (each for each in spheres if each.hole):
         for ball in (each for each in spheres if not each.hole and each.part != hole.part):
             pair = Socket(ball, hole)
-            most = MAX_BALL_CLEARANCE * hole.radius if clearance is None else clearance
+            captive = hole.share >= MIN_CAPTIVE
+            loosest = MAX_CAPTIVE_CLEARANCE if captive else MAX_BALL_CLEARANCE
+            most = loosest * hole.radius if clearance is None else clearance
             fits = -MAX_INTERFERENCE * hole.radius <= pair.clearance <= most
-            if fits and pair.offset <= max(pair.clearance, 0.0) + MAX_OFFSET * hole.radius:
+            off = MAX_CAPTIVE_OFFSET if captive else MAX_OFFSET
+            if fits and pair.offset <= max(pair.clearance, 0.0) + off * hole.radius:
                 found.append(pair)
     return found
 
@@ -88,7 +101,7 @@ def _spheres(part: Part) -> list[SphericalFaces]:
             else:
                 groups.append((surface, share))
     return [
-        SphericalFaces(part.name, sphere.centre, sphere.radius, sphere.side < 0)
+        SphericalFaces(part.name, sphere.centre, sphere.radius, sphere.side < 0, share)
         for sphere, share in groups
         if share >= MIN_SHARE
     ]

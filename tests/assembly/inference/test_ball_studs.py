@@ -74,3 +74,40 @@ def test_the_bolt_of_a_rod_end_does_not_slide_where_its_nut_is_not_drawn(seed):
     body, mechanism = of(seed, base, bolted, rod, bolt)
     assert body["ball"] == body["bolt"] == body["base"] != body["rod"]
     assert [joint.kind for joint in moving(mechanism)] == ["spherical"]
+
+
+def dimple(radius, side, centre, out):
+    """The faces of a ball or of a socket that are on one side of a plane across the axis y, a little beyond its
+    middle: what stands out of a leaf, or what is sunk into it."""
+    triangles = trimesh.creation.icosphere(3, radius).triangles
+    kept = triangles[(triangles[:, :, 1] * out).min(axis=1) > -0.15 * radius] + np.array([0.0, centre, 0.0])
+    return [(Sphere(np.array([0.0, centre, 0.0]), radius, side), kept if side > 0 else kept[:, ::-1])]
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(("room", "kind"), [(1.7, "revolute"), (2.1, None)])
+def test_balls_in_dimples_on_one_line_are_a_hinge(seed, room, kind):
+    """Two balls of a leaf stand loosely in two dimples of the one beside it, as hinges are printed in one piece."""
+    inner = part("inner", block((2, -4, -3), (8, 4, 3)), dimple(1.5, 1, 4.0, 1), dimple(1.5, 1, -4.0, -1))
+    outer = [dimple(room, -1, 4.0, 1), dimple(room, -1, -4.0, -1), block((2, 6, -3), (8, 20, 3))]
+    drawn = assembly(BASE, LEVER, inner, part("outer", *outer, block((2, -20, -3), (8, -6, 3))))
+    mechanism = anywhere(drawn, seed).mechanism(fixed=["base"], rigid=[["base", "outer"]])
+    body = owners(mechanism)
+    between = [joint for joint in moving(mechanism) if "inner" in joint.parts]
+    assert [joint.kind for joint in between] == ([kind] if kind else [])
+    assert kind or body["inner"] == body["base"]
+    if between:
+        told = next(note for note in mechanism.notes if "1 more are on its line" in note)
+        assert "the ball of radius" in told
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_loose_ball_rolls_in_what_turns(seed):
+    """The half of a wheel turns on its axle, which points at the middle of the ball that rolls in it."""
+    arm = block((11, -3, 22), (40, 3, 30))
+    half = part("half", ring(5.2, 12.0, 15, 22), ball(3.5, -1, 28.0), ring(3.6, 12.0, 22, 34), arm)
+    base = part("base", block((-40, -40, -10), (60, 40, 0)), pin(8.0, 0, 14.8), pin(5.0, 14.8, 21), PIVOT)
+    body, mechanism = of(seed, base, LEVER, half, part("loose", ball(3.0, 1, 28.0, 1.1)))
+    assert body["half"] not in (body["base"], body["loose"])
+    kinds = {frozenset(joint.parts): joint.kind for joint in moving(mechanism)}
+    assert kinds[frozenset(("half", "loose"))] == "spherical"
