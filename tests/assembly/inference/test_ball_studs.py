@@ -104,10 +104,10 @@ def test_balls_in_dimples_on_one_line_are_a_hinge(seed, room, kind):
 @pytest.mark.parametrize("seed", SEEDS)
 def test_a_loose_ball_rolls_in_what_turns(seed):
     """The half of a wheel turns on its axle, which points at the middle of the ball that rolls in it."""
-    arm = block((11, -3, 22), (40, 3, 30))
-    half = part("half", ring(5.2, 12.0, 15, 22), ball(3.5, -1, 28.0), ring(3.6, 12.0, 22, 34), arm)
-    base = part("base", block((-40, -40, -10), (60, 40, 0)), pin(8.0, 0, 14.8), pin(5.0, 14.8, 21), PIVOT)
-    body, mechanism = of(seed, base, LEVER, half, part("loose", ball(3.0, 1, 28.0, 1.1)))
+    arm, axle = block((11, -3, 22), (40, 3, 30)), [pin(8.0, 0, 14.8), pin(5.0, 14.8, 22.2), pin(8.0, 22.2, 23)]
+    half = part("half", ring(5.2, 12.0, 15, 22), ring(8.5, 12.0, 22, 24), ball(3.5, -1, 30.0), arm)
+    base = part("base", block((-40, -40, -10), (60, 40, 0)), *axle, PIVOT)
+    body, mechanism = of(seed, base, LEVER, half, part("loose", ball(3.0, 1, 30.0, 1.1)))
     assert body["half"] not in (body["base"], body["loose"])
     kinds = {frozenset(joint.parts): joint.kind for joint in moving(mechanism)}
     assert kinds[frozenset(("half", "loose"))] == "spherical"
