@@ -23,9 +23,9 @@ def held_studs(known: Known, joined: Sequence[StoppedJoint], fastening: Collecti
     """Join the two bodies of a hinge with play about an axis through the middle of a ball, where this hinge and the
     ball are all that ties one of them.
 
-    That body would turn between the two, and move nothing else; a loose ball that rolls in it is no end of it. Studs and bolts are screwed or pressed into what they
-    carry the ball for, and rod ends onto their rods. The bolt through the ball of a rod end does not slide either: its
-    nut is not drawn.
+    That body would turn between the two, and move nothing else; a loose ball that rolls in it is no end of it. Studs
+    and bolts are screwed or pressed into what they carry the ball for, and rod ends onto their rods. The bolt through
+    the ball of a rod end does not slide either: its nut is not drawn.
     """
     body = known.body
     ties = {frozenset(body[part] for part in tie) for tie in (*known.touching, *known.jointed)}

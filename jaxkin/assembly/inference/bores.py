@@ -23,6 +23,8 @@ NEAR_LENGTH = 0.01
 MAX_OPEN_ARC = np.deg2rad(200.0)
 """The widest gap around a bore that still holds what is in it: a half-shell with its tessellation. Fillets are open by
 270 degrees."""
+MIN_HALF_ARC = np.deg2rad(150.0)
+"""The widest angle that a bore which is open by half leaves so, at least: it is tessellated by less than 30 degrees."""
 MAX_HOLE_ARC = np.deg2rad(60.0)
 """The widest angle that a hole or a pin which goes all the way round leaves open, at most: holes are tessellated by
 less, the end of a slot is open by half, and leaves its pin a stroke."""
@@ -44,6 +46,13 @@ class Bore:
     """Half the length along the axis."""
     spans: tuple[tuple[float, float], ...]
     """Where the faces are along the axis, from `point`: two lugs of one part have one bore of two spans."""
+    open_arc: float = 0.0
+    """The widest angle about the axis that the faces leave open, radians."""
+
+    @property
+    def is_half_open(self) -> bool:
+        """Whether half of the way around the axis is open, as in a groove or a half-shell."""
+        return self.open_arc >= MIN_HALF_ARC
 
     def on_axis_of(self, other: Bore, angle: float = NEAR_ANGLE, length: float = NEAR_LENGTH) -> bool:
         """Tell whether the axis is that of another bore, within `angle` (radians) and `length` (over the other's
@@ -101,7 +110,8 @@ def _same(one: Cylinder, other: Cylinder) -> bool:
 def _bore(part: str, surface: Cylinder, faces: Sequence[Face]) -> Bore | None:
     corners = np.concatenate([face.triangles for face in faces]).reshape(-1, 3) - surface.point
     along = corners @ surface.axis
-    if opening(corners, surface.axis) > MAX_OPEN_ARC:
+    open_arc = opening(corners, surface.axis)
+    if open_arc > MAX_OPEN_ARC:
         return None
     low, high = float(along.min()), float(along.max())
     middle = (low + high) / 2
@@ -118,6 +128,7 @@ def _bore(part: str, surface: Cylinder, faces: Sequence[Face]) -> Bore | None:
         surface.side < 0,
         (high - low) / 2,
         merged(spans, SAME_LENGTH * surface.radius),
+        open_arc,
     )
 
 
@@ -126,12 +137,6 @@ def opening(corners: Float[np.ndarray, "corners 3"], axis: Vector) -> float:
     x = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis))])
     angles = np.sort(np.arctan2(corners @ np.cross(axis, x), corners @ x))
     return float(np.diff(angles, append=angles[0] + 2 * np.pi).max())
-
-
-def opening_of(bore: Bore, part: Part) -> float:
-    """Measure the widest angle about its axis that a bore leaves open, radians, whatever else its part has."""
-    faces = [face.triangles.reshape(-1, 3) for face in part.faces if face.name in bore.faces]
-    return opening(np.concatenate(faces) - bore.point, bore.axis)
 
 
 def merged(spans: Iterable[tuple[float, float]], apart: float = 0.0) -> tuple[tuple[float, float], ...]:

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from jaxkin.assembly.inference.axes import shared_length
-from jaxkin.assembly.inference.bores import Bore, opening_of
+from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
-MIN_GAP = np.deg2rad(150.0)
-"""The widest angle around a shaft that a half of a split ring leaves open, at least."""
 STEP_FIT = 0.05
 """Radius of a step inside of a split ring less that of the shaft there, over the radius, at most."""
 
@@ -26,7 +22,7 @@ def collets(known: Known) -> list[Inference]:
     result = []
     for pair in known.axes:
         piece, shaft = pair.other, pair.one
-        if pair.virtual or piece.part in known.fixed or not is_piece(known, piece):
+        if pair.virtual or piece.part in known.fixed or not piece.is_half_open:
             continue
         if not _has_steps(known, piece, shaft) or any(piece.part in each.parts for each in result):
             continue
@@ -44,11 +40,6 @@ def collets(known: Known) -> list[Inference]:
             parts = known.in_order((piece.part, shaft.part, ring.part))
             result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, (("radius", piece.radius),), text)))
     return result
-
-
-def is_piece(known: Known, bore: Bore) -> bool:
-    """Tell whether a bore leaves half of the way around its axis open, whatever else its part has."""
-    return bool(opening_of(bore, known.solids[bore.part]) >= MIN_GAP)
 
 
 def _has_steps(known: Known, piece: Bore, shaft: Bore) -> bool:

@@ -22,6 +22,7 @@ from jaxkin.assembly.inference.fasteners import fasteners, stacks
 from jaxkin.assembly.inference.feathers import feathers
 from jaxkin.assembly.inference.fittings import screwed_fittings
 from jaxkin.assembly.inference.floating import floating
+from jaxkin.assembly.inference.grooves import in_grooves
 from jaxkin.assembly.inference.heads import is_beside_its_hole, is_countersunk, is_head_on_tube
 from jaxkin.assembly.inference.held import (
     attached_fasteners,
@@ -70,7 +71,14 @@ from jaxkin.assembly.inference.stopped_joint import StoppedJoint
 from jaxkin.assembly.inference.tapers import self_holding_tapers
 from jaxkin.assembly.inference.tight_ends import bolted_ends, pressed_pins, riveted_studs, screwed_on_ends
 from jaxkin.assembly.inference.tube_clamps import clamped_halves, u_bolts
-from jaxkin.assembly.inference.undrawn import empty_nuts, half_screwed, lone_screws, screwed_flat
+from jaxkin.assembly.inference.undrawn import (
+    empty_nuts,
+    half_screwed,
+    lone_screws,
+    screwed_flat,
+    screwed_on_shafts,
+)
+from jaxkin.assembly.inference.undrawn_rods import on_undrawn_rods
 from jaxkin.assembly.inference.untied import sunk_in_siblings, tied_to_nothing
 from jaxkin.contacts.contact import Contacts
 from jaxkin.joints.joint import Joint
@@ -160,7 +168,7 @@ def _take_hubs_and_find_fasteners(known: Known) -> set[str]:
     fastening -= rings | known.sleeves | known.closed
     fastening -= sliding_rods(known, set_in) | hollow_axles(known) | driven | barrels(set_in)
     known.blocks = blocks_between_walls(known, fastening)
-    fastening -= rollers(known, fastening) | known.blocks
+    fastening -= rollers(known, fastening) | known.blocks | in_grooves(known, fastening)
     fastening -= {each.screw.part for each in lead_nuts(known)}
     known.take([*squared_hubs(known, fastening), *pressed_on_shoulders(known, fastening)])
     known.take(locked_threads(known, fastening))
@@ -191,11 +199,12 @@ def _take_what_fasteners_hold(known: Known, fastening: Collection[str]) -> None:
     touching = {pair for pair in known.touching if not pair & known.closed}
     drawn = stacks(outside, fastening, touching, known.order)
     every = with_hosts([*drawn, *spacers(known, fastening)], known)
+    known.take(on_undrawn_rods(known))
     while known.take(bolted_bodies(known, every)):
         pass
     known.take(attached_fasteners(known, every))
     known.take(pressed_bars(known, fastening))
-    known.take(empty_nuts(known))
+    known.take([*empty_nuts(known), *screwed_on_shafts(known)])
     known.take([*screwed_bodies(known, every), *half_screwed(known, every)])
     known.take(clamped_by_one_screw(known, every))
     known.take(clamped_on_slots(known, every))

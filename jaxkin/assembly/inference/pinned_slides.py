@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from jaxkin.assembly.inference.axes import CommonAxis
-from jaxkin.assembly.inference.bores import MAX_HOLE_ARC, NEAR_LENGTH, Bore, opening_of
+from jaxkin.assembly.inference.bores import MAX_HOLE_ARC, NEAR_LENGTH
 from jaxkin.assembly.inference.hinges import MIN_TURN
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
@@ -24,10 +24,10 @@ def pinned_slides(known: Known) -> list[Inference]:
     body, result = known.body, []
     for pair in known.axes:
         owners = [body[part] for part in pair.parts]
-        if owners[0] == owners[1] or not _is_round(known, pair.other):
+        if owners[0] == owners[1] or pair.other.open_arc > MAX_HOLE_ARC:
             continue
         if pair.virtual:
-            on = [pair.one.part] if _is_round(known, pair.one) and _are_one_size(pair) else []
+            on = [pair.one.part] if pair.one.open_arc <= MAX_HOLE_ARC and _are_one_size(pair) else []
         else:
             pins = [each for each in known.axes if each.one is pair.one and body[each.other.part] == owners[0]]
             on = [each.other.part for each in pins]
@@ -45,11 +45,6 @@ def _are_one_size(pair: CommonAxis) -> bool:
     """Tell whether two holes are of one size and on one axis, as those that are drilled for one pin."""
     radius = pair.other.radius
     return abs(pair.clearance) <= SAME_FIT * radius and pair.offset <= NEAR_LENGTH * radius
-
-
-def _is_round(known: Known, hole: Bore) -> bool:
-    """Tell whether a hole goes all the way round its pin."""
-    return bool(opening_of(hole, known.solids[hole.part]) <= MAX_HOLE_ARC)
 
 
 def _held(known: Known, pair: CommonAxis, part: str, play: float) -> Inference:

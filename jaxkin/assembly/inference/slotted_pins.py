@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.assembly.inference.axes import MAX_CLEARANCE, MAX_OFFSET, MIN_ENGAGED, CommonAxis
-from jaxkin.assembly.inference.bores import MAX_HOLE_ARC, SAME_LENGTH, Bore, merged, opening_of, shared
+from jaxkin.assembly.inference.bores import MAX_HOLE_ARC, SAME_LENGTH, Bore, merged, shared
 from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.geometry.part import Face, Part
 from jaxkin.geometry.pose import Vector
@@ -76,7 +76,7 @@ def slotted_pins(
     planes: dict[str, _Walls] = {}
     result = []
     for part in parts:
-        pins = [bore for bore in bores[part.name] if not bore.hole and opening_of(bore, part) <= MAX_HOLE_ARC]
+        pins = [bore for bore in bores[part.name] if not bore.hole and bore.open_arc <= MAX_HOLE_ARC]
         for other in beside(part) if pins else ():
             if other.name not in planes:
                 planes[other.name] = _walls_of(other)

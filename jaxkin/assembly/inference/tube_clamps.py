@@ -8,7 +8,6 @@ import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.bores import Bore
-from jaxkin.assembly.inference.collets import is_piece
 from jaxkin.assembly.inference.fasteners import parallel
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
@@ -26,7 +25,7 @@ def clamped_halves(known: Known) -> list[Inference]:
     nothing but the tube for them to press on. The halves of a bearing lie on each other."""
     result, pieces = [], []
     for pair in known.axes:
-        if not pair.virtual and abs(pair.clearance) <= FITTED * pair.other.radius and is_piece(known, pair.other):
+        if not pair.virtual and abs(pair.clearance) <= FITTED * pair.other.radius and pair.other.is_half_open:
             pieces.append(pair)
     for one, other in combinations(pieces, 2):
         first, second = one.other.part, other.other.part

@@ -1,5 +1,5 @@
-"""Screws that are not drawn: empty holes of a part that end on a face of another one, against which it lies flat; nuts
-with nothing in them."""
+"""Screws that are not drawn: empty holes of a part that end on a face of another one, against which it lies flat, also
+in the ends of shafts; nuts with nothing in them."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.one_screw import THROUGH
 from jaxkin.assembly.inference.screwed import crossings
+from jaxkin.assembly.inference.sleeves import is_round_about
 from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.surfaces import Plane
@@ -63,6 +64,32 @@ def _is_hexagonal(known: Known, hole: Bore) -> bool:
         return False
     away = np.array([(plane.point - hole.point) @ plane.normal for plane in along])
     return bool(away.min() > 0 and np.ptp(away) <= HEXAGON * away.max())
+
+
+def screwed_on_shafts(known: Known) -> list[Inference]:
+    """Join wheels and washers with the shaft on whose end they lie, over an empty hole along it for a screw.
+
+    The shaft turns in something, or something on it: a screw that the wheel turned on would do so a second time, about
+    the same axis.
+    """
+    body, result = known.body, []
+    for pair in known.tapped:
+        wide, narrow = sorted((pair.one, pair.other), key=lambda bore: -bore.radius)
+        disc, shaft = wide.part, narrow.part
+        if body[disc] == body[shaft] or not known.touches_only_across(disc, shaft, narrow.axis):
+            continue
+        turning = (
+            each
+            for each in known.axes
+            if each.one.part == shaft and not each.virtual and disc not in each.parts and each.one.on_axis_of(narrow)
+        )
+        if is_round_about(known, disc, wide) and any(turning):
+            text = f"{disc!r} lies on the end of {shaft!r}, with a hole of radius {wide.radius:.4g} over one of "
+            text += f"{narrow.radius:.4g}, as for a screw that is not drawn"
+            sizes = (("radius", wide.radius), ("clearance", wide.radius - narrow.radius))
+            evidence = Evidence(EvidenceKind.FASTENER, sizes, text)
+            result.append(Inference(known.in_order((disc, shaft)), evidence))
+    return result
 
 
 def screwed_flat(known: Known) -> list[Inference]:
