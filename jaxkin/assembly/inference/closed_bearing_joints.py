@@ -1,5 +1,5 @@
 """What a ball bearing that is drawn as one ring implies: its outside belongs to what it sits in, and in its hole turns
-what is there."""
+what is there; one by itself is a roller."""
 
 from __future__ import annotations
 
@@ -55,6 +55,26 @@ def closed_bearing_joints(known: Known, found: Sequence[Ring]) -> list[StoppedJo
         text = f"{pair.one.part!r} turns in {pair.other.part!r}, which has the size of a ball bearing"
         inference = Inference.of(joint, _evidence(of[pair.other.part], text))
         result.append(StoppedJoint(inference, Stop.BEARING, exact))
+    return result
+
+
+def lone_rollers(known: Known, found: Sequence[Ring]) -> list[Inference]:
+    """Make revolute joints of bearings with nothing in them or around them, which lie on one part only, over a hole of
+    it: their bolt is not drawn, and they roll on something."""
+    body, result = known.body, []
+    bored = {part for pair in (*known.axes, *known.tapped) for part in pair.parts}
+    for each in found:
+        name = each.part.name
+        hosts = known.in_order({part for pair in known.touching if name in pair for part in pair} - {name})
+        if name in bored or len(hosts) != 1 or body[name] == body[hosts[0]]:
+            continue
+        under = [bore for bore in known.bores_on(hosts[0], each.hole) if bore.hole]
+        if under and known.touches_only_across(name, hosts[0], each.hole.axis):
+            parts = known.in_order((name, hosts[0]))
+            joint = pairs.revolute("-".join(parts), *parts, point=each.hole.point, axis=each.hole.axis)
+            text = f"{name!r} has the size of a ball bearing, with nothing around it, and lies on {hosts[0]!r} over a "
+            text += f"hole of radius {under[0].radius:.4g}, as on a bolt that is not drawn"
+            result.append(Inference.of(joint, _evidence(each, text)))
     return result
 
 

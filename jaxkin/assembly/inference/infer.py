@@ -14,6 +14,7 @@ from jaxkin.assembly.inference.closed_bearing_joints import (
     closed_bearing_bodies,
     closed_bearing_joints,
     in_closed_bearings,
+    lone_rollers,
 )
 from jaxkin.assembly.inference.collets import collets
 from jaxkin.assembly.inference.dowels import dowelled
@@ -249,7 +250,7 @@ def _take_joints_between_bodies(known: Known, fastening: Collection[str]) -> _St
 def _take_what_is_left(known: Known, guided: Sequence[StoppedJoint]) -> None:
     """Take what is left: parts that lie on one other, or that nothing ties."""
     known.take(hinged_ends(known))
-    known.take(screwed_flat(known))
+    known.take([*screwed_flat(known), *lone_rollers(known, known.measured.closed_bearings)])
     known.take(lone_screws(known))
     known.take(lying_on_one(known, guided))
     known.take(sunk_in_siblings(known))

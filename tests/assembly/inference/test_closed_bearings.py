@@ -93,3 +93,17 @@ def test_holes_that_line_up_do_not_lock_what_a_bearing_lets_turn(seed):
     (joint,) = moving(mechanism)
     body = owners(mechanism)
     assert joint.kind == "revolute" and body["bearing"] == body["housing"] != body["shaft"]
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(("outside", "rolls"), [(11.0, True), (10.0, False)])
+def test_a_bearing_by_itself_over_a_hole_is_a_roller(seed, outside, rolls):
+    """A 608 on the end of a bracket, whose bolt is not drawn; a ring of no such size lies there."""
+    hole, pivot = ring(2.0, 5.0, -10, 0, (50.0, 0.0))[2:3], (-50.0, 0.0)
+    axle = [pin(4.0, 0, 10, pivot), pin(7.0, 10, 12, pivot)]
+    base = part("base", block((-60, -10, -10), (60, 10, 0)), hole, *axle)
+    lever = part("lever", ring(4.1, 9.0, 0.1, 9.9, pivot), block((-42, -3, 0.1), (20, 3, 9.9)))
+    drawn = assembly(base, lever, part("roller", ring(BORE, outside, 0, WIDTH, (50.0, 0.0))))
+    mechanism = anywhere(drawn, seed, scaled_at_random=False).mechanism(fixed=["base"])
+    found = [joint for joint in mechanism.all_joints if "roller" in joint.parts and joint.freedoms]
+    assert [joint.kind for joint in found] == (["revolute"] if rolls else [])
