@@ -45,6 +45,7 @@ from jaxkin.assembly.inference.motors import motor_shafts
 from jaxkin.assembly.inference.on_rings import clamped_on_rings
 from jaxkin.assembly.inference.one_screw import clamped_by_one_screw
 from jaxkin.assembly.inference.pinned_slides import pinned_slides
+from jaxkin.assembly.inference.pocketed_nuts import nuts_in_pockets
 from jaxkin.assembly.inference.pressed_bars import pressed_bars
 from jaxkin.assembly.inference.retaining_rings import retaining_rings
 from jaxkin.assembly.inference.rod_end_bolts import bolted_balls
@@ -183,6 +184,7 @@ def _take_hubs_and_find_fasteners(known: Known) -> set[str]:
 
 def _take_pins_in_one_part(known: Known, fastening: Collection[str]) -> None:
     """Take pins that are in one part: by threads, motors, posts, press fits, rivets, rings in grooves."""
+    known.take(nuts_in_pockets(known))
     known.take(screwed_in(known, fastening))
     known.take(motor_shafts(known, fastening))
     known.take(embedded_pins(known, fastening))

@@ -44,7 +44,7 @@ def empty_nuts(known: Known) -> list[Inference]:
         threaded = all(bore.hole and bore.on_axis_of(hole) for bore in own)  # also with the relief of its thread
         if not threaded or name in known.fixed or not all(pair.virtual for pair in some):
             continue
-        if not _is_hexagonal(known, hole):
+        if not is_hexagonal(known, hole):
             continue
         tied = {part for pair in known.touching if name in pair for part in pair} - {name}
         nearest = max(some, key=lambda pair: (bool({*pair.parts} & tied), engaged(pair)))
@@ -56,7 +56,7 @@ def empty_nuts(known: Known) -> list[Inference]:
     return result
 
 
-def _is_hexagonal(known: Known, hole: Bore) -> bool:
+def is_hexagonal(known: Known, hole: Bore) -> bool:
     """Tell whether a part has six plane sides about its hole, as far from the axis, and no others."""
     planes = [face.surface for face in known.solids[hole.part].faces if isinstance(face.surface, Plane)]
     along = [plane for plane in planes if abs(plane.normal @ hole.axis) < ACROSS]

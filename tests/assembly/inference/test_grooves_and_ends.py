@@ -1,7 +1,11 @@
 """What published scripts leave out and leave open: grooves open by half, screws in the ends of shafts, guide rods."""
 
+from itertools import pairwise
+
+import numpy as np
 import pytest
 
+from jaxkin.geometry.surfaces import Plane
 from reference.round_parts import SEEDS, anywhere, assembly, block, moving, owners, part, pin, ring
 
 
@@ -71,3 +75,37 @@ def test_a_carriage_with_empty_bushes_slides_on_rods_that_are_not_drawn(seed, ga
     body, mechanism = of(seed, base, carriage, *bushes)
     assert not slides or body["bush 0"] == body["bush 1"] == body["carriage"]
     assert ([joint.kind for joint in moving(mechanism)] == ["prismatic"]) == slides
+
+
+def hexagon(flat, low, high, inwards=False):
+    """Six sides about the axis z, those of a nut or of a pocket for one."""
+    angles = np.pi / 6 + np.arange(7) * np.pi / 3
+    corners = flat / np.cos(np.pi / 6) * np.column_stack([np.cos(angles), np.sin(angles)])
+    faces = []
+    for one, other in pairwise(corners):
+        a, b, c, d = ([*one, low], [*other, low], [*other, high], [*one, high])
+        normal = np.array([*(one + other) / 2, 0.0]) / flat
+        triangles = np.array([[a, b, c], [a, c, d]])
+        faces.append(
+            (Plane(triangles[0, 0], -normal), triangles[:, ::-1])
+            if inwards
+            else (Plane(triangles[0, 0], normal), triangles)
+        )
+    return faces
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(("pocket", "held"), [(6.5, True), (7.3, False)])
+def test_a_rod_in_a_nut_in_a_pocket_is_held_there(seed, pocket, held):
+    """The rod fits the foot exactly, and would slide and turn in it; a round recess holds no nut."""
+    base = part(
+        "base", block((-60, -20, -4), (-20, 20, 8)), pin(4.0, 8, 18, (-40.0, 0.0)), pin(7.0, 18, 20, (-40.0, 0.0))
+    )
+    foot = part("foot", ring(4.0, 18.0, 8, 12), ring(10.0, 18.0, 0, 8), hexagon(pocket, 0, 8, inwards=True))
+    nut = part("nut", ring(4.0, 6.2, 1, 7)[:3], hexagon(6.2, 1, 7))
+    top = part("top", ring(4.0, 9.0, 74, 90), pin(9.0, 90, 94), block((8, -4, 80), (40, 4, 86)))
+    rod = part("rod", pin(4.0, 0, 90))
+    lever = part("lever", ring(4.1, 9.0, 8.1, 17.9, (-40.0, 0.0)), block((-36, -3, 30), (-20, 3, 36)))
+    drawn = anywhere(assembly(base, foot, nut, rod, top, lever), seed)
+    body = owners(drawn.mechanism(fixed=["base"], rigid=[["base", "foot"]]))
+    assert (body["rod"] == body["nut"] == body["foot"]) == held
