@@ -1,4 +1,4 @@
-"""Wheels and rollers: bodies that are round about their only hinge, the turns of which move nothing else."""
+"""Wheels, rollers and loose balls: bodies that are round about their only joint, whose turns move nothing else."""
 
 from __future__ import annotations
 
@@ -23,20 +23,25 @@ def wheels_last(mechanism: Mechanism) -> tuple[str, ...]:
 
 
 def wheels_of(mechanism: Mechanism) -> dict[str, str]:
-    """Find the turns of bodies that are round about their only hinge, as wheels and rollers are: a part of each body by
-    the coordinate."""
+    """Find the turns of bodies that are round about their only hinge, as wheels and rollers are, or about the middle of
+    their only ball joint: a part of each body by the coordinate."""
     solids = {part.name: part for part in mechanism.solids}
     members = {part: parts for parts in mechanism.bodies.values() for part in parts}
     free = [joint for joint in mechanism.all_joints if joint.freedoms]
     count = Counter(members[part][0] for joint in free for part in joint.parts)
     found = {}
-    for joint in (each for each in free if each.kind is JointKind.REVOLUTE):
+    for joint in (each for each in free if each.kind in (JointKind.REVOLUTE, JointKind.SPHERICAL)):
         pose = np.asarray(joint.frames_1, float)[0]
         for part in joint.parts:
             own = [solids[name] for name in members[part] if name in solids]
             if part in mechanism.fixed or count[members[part][0]] != 1 or not own:
                 continue
             outline = np.concatenate([each.outermost for each in own]) - pose[:3, 3]
-            if roundness(outline @ pose[:3, :2], np.zeros(2)) > ROUND:
-                found[f"{joint.name}.phi"] = part
+            if joint.kind is JointKind.SPHERICAL:
+                away = np.linalg.norm(outline, axis=1)
+                is_round = away.min() > ROUND * away.max()
+            else:
+                is_round = roundness(outline @ pose[:3, :2], np.zeros(2)) > ROUND
+            if is_round:
+                found |= {f"{joint.name}.{coordinate}": part for coordinate in joint.coordinates}
     return found

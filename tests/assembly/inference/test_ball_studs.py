@@ -107,7 +107,10 @@ def test_a_loose_ball_rolls_in_what_turns(seed):
     arm, axle = block((11, -3, 22), (40, 3, 30)), [pin(8.0, 0, 14.8), pin(5.0, 14.8, 22.2), pin(8.0, 22.2, 23)]
     half = part("half", ring(5.2, 12.0, 15, 22), ring(8.5, 12.0, 22, 24), ball(3.5, -1, 30.0), arm)
     base = part("base", block((-40, -40, -10), (60, 40, 0)), *axle, PIVOT)
-    body, mechanism = of(seed, base, LEVER, half, part("loose", ball(3.0, 1, 30.0, 1.1)))
+    loose = part("loose", ball(3.0, 1, 30.0, 1.1))
+    body, mechanism = of(seed, base, LEVER, half, loose)
     assert body["half"] not in (body["base"], body["loose"])
     kinds = {frozenset(joint.parts): joint.kind for joint in moving(mechanism)}
     assert kinds[frozenset(("half", "loose"))] == "spherical"
+    best = anywhere(assembly(base, LEVER, half, loose), seed).proposals()[0]
+    assert "loose" not in best.fixed and sum("loose" in name for name in best.wheels) == 3
