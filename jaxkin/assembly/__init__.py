@@ -11,7 +11,7 @@ The route is told on the page "Architecture". What the modules do on it:
 | bodies that are held to each other, where all else moves as before | `seats`, `guides`, `resting`, `lids` |
 | parts that only spin | `spinning`, `needless`, `at_rest` |
 | mechanisms of joints by hand alone: parts that nothing ties, faces in contact | `left_loose`, `kept_contacts` |
-| notes for the user | `near_misses`, `caps` |
+| notes for the user | `near_misses`, `caps`, `undrawn_shafts` |
 
 Asked for by users, of an assembly or a mechanism: what to fix and drive (`proposals`, `wheels`), which contacts lock it
 (`blocking_contacts`), and gears (`gears`, `gear_proposal`, `toothed_parts`, `racks`).

@@ -17,8 +17,10 @@ from jaxkin.assembly.lids import under_lids
 from jaxkin.assembly.resting import leaves_all_moving, resting
 from jaxkin.assembly.seats import seats_of, useful_freedoms
 from jaxkin.assembly.to_mechanism import MechanismOptions, detection_of, make_mechanism
+from jaxkin.assembly.undrawn_shafts import told_shafts
 from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.joints.evidence import EvidenceKind
+from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.topology.bodies import bodies, body_of_parts
 
@@ -71,7 +73,12 @@ def _with_springs(
         for one, other in options.ignored
         if frozenset((one, other)) in trials.heeded
     ]
-    return replace(found, history=(*told_caps(found), *taken_back, *found.history))
+
+    def with_joint(joint: Joint) -> Mechanism:
+        return _with_springs(assembly, contacts, options._replace(joints=(*options.joints, joint)), tubes)
+
+    shafts = told_shafts(found, assembly._measured.bores, with_joint)
+    return replace(found, history=(*told_caps(found), *shafts, *taken_back, *found.history))
 
 
 class _Trial(NamedTuple):
