@@ -1,7 +1,8 @@
 """Parts that only spin: screws, pins and washers, which look like hinges to the contact analysis.
 
 Such a part can turn about an axis while all other parts rest, perhaps also slide along the axis or over a face across
-it, and can do nothing else; it carries no other part and constrains none. Its solid is round about that axis. A lever
+it, and can do nothing else; it carries no other part and constrains none. Its solid is round about that axis, or it is
+a loose ball, which turns about its middle. A lever
 at the end of a chain also turns alone, but is not round: that it has no function would be a guess, and so it would be
 for parts without solids.
 """
@@ -86,13 +87,22 @@ def spins(mechanism: Mechanism) -> tuple[dict[str, Spin], dict[str, Spin]]:
 
 
 def _spin(joints: Sequence[Joint], size: float) -> Spin | None:
-    """Find the motion of a part whose neighbours rest; None if it is no turn, perhaps with slides along or across."""
+    """Find the motion of a part whose neighbours rest; None if it is no turn, perhaps with slides along or across, and
+    no roll about one point."""
     centre, _ = middle(joints)
     forbidden = np.concatenate([constraints(joint, centre, size) for joint in joints])
     _, strengths, directions = np.linalg.svd(forbidden, full_matrices=True)
     free = directions[int((strengths > TWIST_TOLERANCE).sum()) :]
     _, turns, mixes = np.linalg.svd(free[:, :3].T, full_matrices=True)
-    if int((turns > TWIST_TOLERANCE).sum()) != 1:
+    count = int((turns > TWIST_TOLERANCE).sum())
+    if count == len(free) == 3:
+        # of turns w about the point p the velocities at the centre are v = p x w
+        crosses = np.concatenate([np.cross(np.eye(3), w).T for w in free[:, :3]])
+        point, velocities = np.linalg.lstsq(crosses, free[:, 3:].ravel(), rcond=None)[0], free[:, 3:].ravel()
+        if np.abs(crosses @ point - velocities).max() > TWIST_TOLERANCE:
+            return None
+        return Spin(*LOWER_PAIRS[3, 0], frame(centre + size * point, np.array([0.0, 0.0, 1.0])))
+    if count != 1:
         return None
     turn, slides = mixes[0] @ free, (mixes[1:] @ free)[:, 3:]
     axis = turn[:3] / np.linalg.norm(turn[:3])
@@ -135,10 +145,14 @@ def _cylinders(*parts: Part) -> list[Cylinder]:
 
 
 def _is_round(part: Part, spin: Spin) -> bool:
-    """Tell whether the outline of a part, seen along the axis, is round about the axis.
+    """Tell whether the outline of a part, seen along the axis, is round about the axis; of one on a ball joint, whether
+    it is a ball.
 
     If the part may slide across the axis, the outline need only be round about its own middle.
     """
+    if spin.kind is JointKind.SPHERICAL:
+        away = np.linalg.norm(part.outermost - spin.frame[:3, 3], axis=1)
+        return bool(away.min() > MIN_BUSH * away.max())
     outline = (part.outermost - spin.frame[:3, 3]) @ spin.frame[:3, :2]
     slides_across = MOVEMENTS[spin.movement].turns_and_slides == (1, 2)
     return roundness(outline, None if slides_across else np.zeros(2)) > MIN_ROUNDNESS
