@@ -14,7 +14,7 @@ IN_THE_WAY = 1e-6
 """Depth, over the size of a profile, from which on something is in the way: far above rounding, and below what can be
 made."""
 
-Poses = Float[np.ndarray, " poses"]
+PerPose = Float[np.ndarray, " poses"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,18 +29,18 @@ class CurveContact:
     """What follows the curve: "a point", "a roller", "a flat face", "a curve", "a ball"."""
     of: str
     """What is followed: "curve", or "surface along u" and "surface along v", a contact for each."""
-    parameter: Poses
+    parameter: PerPose
     """How far the contact is along the curve from the first of its points."""
-    curvature: Poses
+    curvature: PerPose
     """Curvature of the profile at the contact, over one length: positive where it bends away from what follows it. Of a
     surface the least of its two principal curvatures."""
-    clearance: Poses
+    clearance: PerPose
     """1 + radius times curvature of a roller, the sum of both curvatures, times the size of the profile, of a curve:
     negative where the profile is undercut, where it bends towards what follows it more than that is bent itself. Of
     a flat face curvature times size; 1 for a point."""
-    depth: Poses
+    depth: PerPose
     """How deep what follows would have to pass through the profile or surface, anywhere; 0 where it need not."""
-    beyond: Poses
+    beyond: PerPose
     """How far the contact is beyond an end of an open curve; 0 on the curve, and of closed ones."""
 
     @property
@@ -119,8 +119,8 @@ def made_contact(
     joint: str,
     what: str,
     of: str,
-    place: tuple[Poses, float, bool],
-    numbers: tuple[Poses, Poses, Poses],
+    place: tuple[PerPose, float, bool],
+    numbers: tuple[PerPose, PerPose, PerPose],
     size: float,
 ) -> CurveContact:
     """Make a contact from what is known of it at each pose.

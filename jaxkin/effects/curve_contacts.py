@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from jaxkin._arguments import check_known, check_motion
-from jaxkin.effects.curve_contact import CurveContact, CurveContacts, Poses, made_contact
+from jaxkin.effects.curve_contact import CurveContact, CurveContacts, PerPose, made_contact
 from jaxkin.effects.surface_contact import contacts_on_surface
 from jaxkin.geometry.curves import CurvePoint, Spline, sampled_pieces
 from jaxkin.geometry.movements import MOVEMENTS
@@ -120,7 +120,14 @@ def _of_two(joint: Joint, one: Spline, other: Spline, q: Float[np.ndarray, "pose
 
 
 def _contact(
-    joint: str, what: str, spline: Spline, q: Poses, curvature: Poses, clearance: Poses, depth: Poses, size: float
+    joint: str,
+    what: str,
+    spline: Spline,
+    q: PerPose,
+    curvature: PerPose,
+    clearance: PerPose,
+    depth: PerPose,
+    size: float,
 ) -> CurveContact:
     """Make the contact of a curve at displacements `q`: where it is on the curve, counted from the first point."""
     place = float(spline.start) + q, float(spline.knots[-1]), spline.closed

@@ -14,7 +14,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Float, Int
 
-from jaxkin.effects.grid_steps import SHORT_STEPS, GridSteps, Inputs, Steps, neighbours
+from jaxkin.effects.grid_steps import SHORT_STEPS, GridSteps, NodeInputs, Steps, neighbours
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.trig import TURN
 from jaxkin.mechanism.drive_plan import DrivenLoopGroup
@@ -35,7 +35,7 @@ class Flooded(NamedTuple):
 def flood(
     loop_groups: Sequence[DrivenLoopGroup],
     options: SolverOptions,
-    inputs: Inputs,
+    inputs: NodeInputs,
     shape: tuple[int, int],
     max_residual: float,
 ) -> Flooded:

@@ -31,7 +31,7 @@ from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, difference, drive, retract
 
-Inputs = Float[np.ndarray, "driven nodes"]
+NodeInputs = Float[np.ndarray, "driven nodes"]
 
 BATCH = 128
 """Steps that are taken together: a front on a grid of some thousand nodes has about as many."""
@@ -74,7 +74,7 @@ class GridSteps:
         self.systems = tuple(loop_group.system for loop_group in loop_groups)
         self.joints = tuple(loop_group.joints for loop_group in loop_groups)
 
-    def follow(self, states: Sequence[Sequence[np.ndarray]], begin: Inputs, end: Inputs) -> Steps:
+    def follow(self, states: Sequence[Sequence[np.ndarray]], begin: NodeInputs, end: NodeInputs) -> Steps:
         """Step from poses to others, once more in shorter steps where the first is not taken."""
         found = self.walk(states, begin, end, 1)
         for count, most in ((SHORT_STEPS, np.inf), (SHORTEST_STEPS, self.max_residual)):
@@ -86,7 +86,12 @@ class GridSteps:
         return found
 
     def walk(
-        self, states: Sequence[Sequence[np.ndarray]], begin: Inputs, end: Inputs, count: int, to_end: bool = True
+        self,
+        states: Sequence[Sequence[np.ndarray]],
+        begin: NodeInputs,
+        end: NodeInputs,
+        count: int,
+        to_end: bool = True,
     ) -> Steps:
         """Walk from poses to others in `count` steps each, a batch at a time.
 

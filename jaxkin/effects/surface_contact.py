@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.effects.curve_contact import CurveContact, Poses, made_contact
+from jaxkin.effects.curve_contact import CurveContact, PerPose, made_contact
 from jaxkin.geometry.curves import sampled_pieces
 from jaxkin.geometry.patches import BicubicSpline
 from jaxkin.joints.patch_contact import SAMPLES
@@ -46,7 +46,7 @@ def contacts_on_surface(
     return contacts
 
 
-def _principal(spline: BicubicSpline, at: Float[np.ndarray, "2 poses"]) -> tuple[Poses, Poses]:
+def _principal(spline: BicubicSpline, at: Float[np.ndarray, "2 poses"]) -> tuple[PerPose, PerPose]:
     """Compute the principal curvatures, least first, positive where the surface bends towards its normal u x v."""
     found = spline.derivatives(*at)
     u, v, uu, uv, vv = (np.stack(each) for each in found[1:])

@@ -15,7 +15,7 @@ from itertools import combinations, product
 import numpy as np
 
 from jaxkin.geometry.components import components, grouped
-from jaxkin.geometry.facets import FACET_SHARE, Facets, Rows
+from jaxkin.geometry.facets import FACET_SHARE, Facets, TriangleIndices
 from jaxkin.geometry.surfaces import Plane, Surface
 from jaxkin.geometry.tessellation_test import CHORD_ANGLE, MAX_WIDTH_RATIO, arcs, on, surface_of
 from jaxkin.geometry.torus import Torus
@@ -78,7 +78,7 @@ class Region:
 
     surface: Surface | Torus | None
     """The surface that the corners of the triangles lie on; None for a free-form face."""
-    rows: Rows
+    rows: TriangleIndices
     """Indices of the triangles in `Facets.triangles`, rising."""
 
     @property
@@ -94,7 +94,7 @@ class RegionGrowing:
     it belongs to no face.
     """
 
-    def __init__(self, mesh: Facets, rows: Rows) -> None:
+    def __init__(self, mesh: Facets, rows: TriangleIndices) -> None:
         self.mesh = mesh
         self.rows = rows  # (n,) indices into mesh.triangles
         number = np.full(len(mesh.triangles), -1)
@@ -160,7 +160,7 @@ class RegionGrowing:
         """Check that the areas of facets differ by less than the factor `_MAX_AREA_RATIO`."""
         return bool(self.area[facets].max() < _MAX_AREA_RATIO * self.area[facets].min())
 
-    def _triangles(self, facets: list[int] | np.ndarray) -> Rows:
+    def _triangles(self, facets: list[int] | np.ndarray) -> TriangleIndices:
         """Collect the triangles of some facets, as rising indices into `Facets.triangles`."""
         return self.rows[np.sort(np.concatenate([self.members[k] for k in facets]))]
 

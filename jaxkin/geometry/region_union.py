@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from jaxkin.geometry.facets import Facets, Rows
+from jaxkin.geometry.facets import Facets, TriangleIndices
 from jaxkin.geometry.region_growing import LOOSE_TOLERANCE, TIGHT_TOLERANCE, Region
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.geometry.tessellation_test import arcs, on, surface_of
@@ -34,7 +34,7 @@ _MAX_UNION_TRIALS = 1000
 Bounds the time that free-form faces take, on which many small regions are found by chance."""
 
 
-def rough_tolerance(mesh: Facets, rows: Rows) -> float:
+def rough_tolerance(mesh: Facets, rows: TriangleIndices) -> float:
     """Return how far corners of the triangles `rows` may lie from their surface, a length, where a face ends there."""
     extent = float(np.linalg.norm(np.ptp(mesh.points[mesh.triangles[rows]].reshape(-1, 3), axis=0)))
     return min(_ROUGH_TOLERANCE * mesh.tolerance, _MAX_ROUGHNESS * extent)
@@ -46,7 +46,7 @@ def united(mesh: Facets, found: list[Region]) -> list[Region]:
     The surface of the union must be of the kind of the larger region: a piece of a torus, taken alone, may lie on a
     cone. Returns the regions, the united ones in the places of their largest members.
     """
-    rows: list[Rows] = [region.rows for region in found]
+    rows: list[TriangleIndices] = [region.rows for region in found]
     surfaces = [region.surface for region in found]
     owner = np.full(len(mesh.triangles), -1)
     for k, region in enumerate(found):
@@ -79,7 +79,7 @@ def absorbed(mesh: Facets, found: list[Region]) -> list[Region]:
     smaller than the face, and all its corners are within `rough_tolerance` of the surface. A facet that two round faces
     share, since they are tangent to each other in the middle of it, is divided between them.
     """
-    rows: list[Rows] = [region.rows for region in found]
+    rows: list[TriangleIndices] = [region.rows for region in found]
     owner = np.empty(len(mesh.triangles), int)
     for k, region in enumerate(found):
         owner[region.rows] = k

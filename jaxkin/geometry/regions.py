@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Bool
 
 from jaxkin.geometry.components import components, grouped
-from jaxkin.geometry.facets import SMOOTH_ANGLE, Facets, Rows
+from jaxkin.geometry.facets import SMOOTH_ANGLE, Facets, TriangleIndices
 from jaxkin.geometry.region_growing import LOOSE_TOLERANCE, TIGHT_TOLERANCE, Region, RegionGrowing
 from jaxkin.geometry.region_union import absorbed, rough_tolerance, united
 from jaxkin.geometry.surfaces import Plane, Surface
@@ -73,7 +73,7 @@ def _named(mesh: Facets, region: Region) -> Region:
     return region if surface is None or isinstance(surface, Plane) else Region(surface, region.rows)
 
 
-def _divided(mesh: Facets, rows: Rows, within: np.ndarray) -> list[Region]:
+def _divided(mesh: Facets, rows: TriangleIndices, within: np.ndarray) -> list[Region]:
     """Divide triangles that join smoothly into faces.
 
     One surface is fitted to all of them first, then to what is left of them when they are cut along edges of smaller
@@ -111,7 +111,7 @@ def _divided(mesh: Facets, rows: Rows, within: np.ndarray) -> list[Region]:
     return found
 
 
-def _rough_surface(mesh: Facets, rows: Rows) -> Surface | Torus | None:
+def _rough_surface(mesh: Facets, rows: TriangleIndices) -> Surface | Torus | None:
     """Find the round surface of triangles that are bounded by sharp edges, whose corners may be less exact."""
     points = mesh.points[np.unique(mesh.triangles[rows])]
     if len(points) < _MIN_ROUGH_CORNERS:
@@ -123,7 +123,7 @@ def _rough_surface(mesh: Facets, rows: Rows) -> Surface | Torus | None:
     return None
 
 
-def _is_bounded(mesh: Facets, rows: Rows, angle: float) -> bool:
+def _is_bounded(mesh: Facets, rows: TriangleIndices, angle: float) -> bool:
     """Check that most of the rim of some triangles, by length, is an edge of a face.
 
     Such an edge has an angle of `SMOOTH_ANGLE` or more, or more than `angle` (radians) with a flat face next to it: a
@@ -168,7 +168,7 @@ def _largest_bend(mesh: Facets, region: Region) -> float:
     return float(mesh.angles(*mesh.smooth[inside].T).max(initial=0.0))
 
 
-def _within(mesh: Facets, rows: Rows) -> Bool[np.ndarray, "_"]:
+def _within(mesh: Facets, rows: TriangleIndices) -> Bool[np.ndarray, "_"]:
     """Mark the pairs of `Facets.smooth` both of whose triangles are among `rows`."""
     inside = np.zeros(len(mesh.triangles), bool)
     inside[rows] = True

@@ -40,7 +40,7 @@ met with 2.6e-3."""
 _OTHERS = ("torus",)
 """Kinds that the reader of STEP files names, and that are none of the four: nothing is fitted to these."""
 
-Rows = Int[np.ndarray, "rows"]
+TriangleIndices = Int[np.ndarray, "rows"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,7 +95,7 @@ def make_solid(mesh: Mesh, metres: float, uncertainty: float = 0.0) -> Solid:
 
 
 def _surfaces(
-    mesh: Mesh, triangles: Triangles, rows_of: Sequence[Rows], metres: float, tolerance: float
+    mesh: Mesh, triangles: Triangles, rows_of: Sequence[TriangleIndices], metres: float, tolerance: float
 ) -> list[Surface | None]:
     """Find the surface of each face: as the file says it, or fitted to a spline; None where it is none of the four."""
     found: list[Surface | None] = [None] * len(rows_of)
@@ -140,7 +140,7 @@ def _analytic(described: dict[str, Any] | None, corners: Points, metres: float) 
     return None
 
 
-def _oriented(surface: Surface, triangles: Triangles, rows: Rows) -> tuple[Surface, Triangles, str]:
+def _oriented(surface: Surface, triangles: Triangles, rows: TriangleIndices) -> tuple[Surface, Triangles, str]:
     """Make the surface of some triangles of a solid and these triangles, both facing outwards, and what was amiss."""
     corners = triangles[rows]
     wound = winding(surface, corners)

@@ -16,7 +16,7 @@ _VALUES = {
     "str": str,
     "Number": Number,
     "Mapping[str, Number]": dict[str, Number],
-    "Sequence[Number] | Array": Annotated[list[Number], Field(min_length=2)],
+    "Sequence[Number] | Array | np.ndarray": Annotated[list[Number], Field(min_length=2)],
 }
 """Annotation of an argument in `jaxkin.joints.coupling` -> what a study may say for it."""
 

@@ -36,8 +36,8 @@ MAX_STUDY_BYTES = 1_000_000
 
 Triple = Annotated[list[Number], Field(min_length=3, max_length=3)]
 PlanePoint = Annotated[list[Number], Field(min_length=2, max_length=2)]
-Row = Annotated[list[Number], Field(min_length=4, max_length=4)]
-Frame = Annotated[list[Row], Field(min_length=4, max_length=4)]
+MatrixRow = Annotated[list[Number], Field(min_length=4, max_length=4)]
+Frame = Annotated[list[MatrixRow], Field(min_length=4, max_length=4)]
 Pair = Annotated[list[str], Field(min_length=2, max_length=2)]
 Ends = Annotated[list[float], Field(min_length=2, max_length=2)]
 

@@ -10,7 +10,7 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from jaxkin.linkage.coordinates import Given
+from jaxkin.linkage.coordinates import InputValues
 from jaxkin.linkage.first_order import Columns
 from jaxkin.solve.execution.known_numbers import Outcome
 from jaxkin.solve.status import SEVERITY, Status, closes_before_limits, of_severity, severity
@@ -50,7 +50,7 @@ class Collected(NamedTuple):
 
 def collect(
     sources: DisplacementSources,
-    values: tuple[Given, ...],
+    values: tuple[InputValues, ...],
     finite: Bool[Array | np.ndarray, " poses"] | None,
     solutions: list[Solution],
 ) -> Collected:

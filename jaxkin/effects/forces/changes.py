@@ -10,7 +10,8 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from jaxkin.joints.joint import JointCoordinate
-from jaxkin.mechanism.known_motion import Follow, Inputs, KnownDrive, KnownMotion, Rows, derivatives, follow
+from jaxkin.linkage.joint_motion import JointDisplacements
+from jaxkin.mechanism.known_motion import Follow, Inputs, JointRates, KnownDrive, KnownMotion, derivatives, follow
 from jaxkin.solve.execution.compiler import whole_program
 from jaxkin.topology.components import connected
 
@@ -23,13 +24,13 @@ ORDER = 2
 class Changes(NamedTuple):
     """A motion and its derivatives: for virtual work by each driven displacement, for motion by time."""
 
-    displacements: Rows
+    displacements: JointDisplacements
     along: dict[str, ByCoordinate]
     """First derivatives by each driven displacement, by its name, of the coordinates that it moves: those of a robot
     move a few of many."""
-    velocity: Rows | None = None
+    velocity: JointRates | None = None
     """None at rest."""
-    acceleration: Rows | None = None
+    acceleration: JointRates | None = None
 
 
 @partial(whole_program, static=(0,))
@@ -41,14 +42,14 @@ def changes(drive: KnownDrive, known: KnownMotion, inputs: Inputs, rates: tuple[
     """
     parts, moves = _independent(drive, known), _moved(drive)
 
-    def along(inputs: Inputs) -> tuple[Rows, dict[str, ByCoordinate]]:
+    def along(inputs: Inputs) -> tuple[JointDisplacements, dict[str, ByCoordinate]]:
         rest = follow(drive._replace(loop_groups=()), known._replace(numbers=()))(inputs)
         here = {(joint, k): rows[:, k] for joint, rows in enumerate(rest) for k in range(rows.shape[1])}
         found = {name: {at: jnp.ones_like(inputs[name])} for name, (at, *more) in moves.items() if not more}
         for names, place in parts:
             own = {name: inputs[name] for name in names}
 
-            def by(times: Any, own=own, place=place) -> tuple[Rows, Rows]:
+            def by(times: Any, own=own, place=place) -> tuple[JointDisplacements, JointRates]:
                 """Evaluate, and differentiate along the inputs, each at the rate `times`."""
                 ones = {name: time * jnp.ones_like(own[name]) for name, time in zip(own, times, strict=True)}
                 return jax.jvp(place, (own,), (ones,))
@@ -62,7 +63,7 @@ def changes(drive: KnownDrive, known: KnownMotion, inputs: Inputs, rates: tuple[
             for name, change in zip(names, every, strict=True):
                 found[name] = {(joint, k): change[joint][:, k] for joint, k in moves[name]}
                 here |= {(joint, k): rows[joint][:, k] for joint, k in moves[name]}
-        return rows_of(here, rest), {name: found[name] for name in inputs}
+        return by_joint(here, rest), {name: found[name] for name in inputs}
 
     if rates is None:
         return Changes(*along(inputs))
@@ -73,7 +74,7 @@ def changes(drive: KnownDrive, known: KnownMotion, inputs: Inputs, rates: tuple[
     (name,) = inputs
     velocity = {at: column * first[name] for at, column in each[name].items()}
     acceleration = {at: again[name][at] * first[name] + column * second[name] for at, column in each[name].items()}
-    return Changes(here, each, rows_of(velocity, here), rows_of(acceleration, here))
+    return Changes(here, each, by_joint(velocity, here), by_joint(acceleration, here))
 
 
 def _independent(drive: KnownDrive, known: KnownMotion) -> list[tuple[list[str], Follow]]:
@@ -103,7 +104,7 @@ def _moved(drive: KnownDrive) -> dict[str, list[JointCoordinate]]:
     }
 
 
-def rows_of(columns: ByCoordinate, like: Rows) -> Rows:
+def by_joint(columns: ByCoordinate, like: JointDisplacements) -> tuple[Float[Array, "poses _"], ...]:
     """Put columns together by joint; zero of the coordinates that have none."""
     return tuple(
         jnp.stack([columns.get((joint, k), jnp.zeros_like(rows[:, 0])) for k in range(rows.shape[1])], axis=1)

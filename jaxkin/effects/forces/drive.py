@@ -16,7 +16,7 @@ from jaxtyping import Array, Float, Int
 
 from jaxkin._names import listed
 from jaxkin.effects.forces.balance import tree_wrenches
-from jaxkin.effects.forces.changes import ORDER, ByCoordinate, Changes, changes, rows_of
+from jaxkin.effects.forces.changes import ORDER, ByCoordinate, Changes, by_joint, changes
 from jaxkin.effects.forces.friction import friction
 from jaxkin.effects.forces.friction_result import Friction
 from jaxkin.effects.forces.given import Applied
@@ -43,8 +43,9 @@ from jaxkin.effects.forces.wrenches import (
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.units import METRES
 from jaxkin.joints.joint import JointCoordinate
+from jaxkin.linkage.joint_motion import JointDisplacements
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.mechanism.known_motion import Inputs, KnownDrive, KnownMotion, Rows, known_motion
+from jaxkin.mechanism.known_motion import Inputs, KnownDrive, KnownMotion, known_motion
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.singularity import singular_report
 from jaxkin.mobility.infeasible_drive import resting_freedoms
@@ -148,8 +149,7 @@ def drive_forces(
     """
     acting = Acting(masses, gravity, applied, rates, accelerations)
     check(motion, acting)
-    mechanism = motion.mechanism
-    drive, known = known_motion(motion)
+    mechanism, (drive, known) = motion.mechanism, known_motion(motion)
     speeds = given_rates(motion, acting)
     unit, linkage, numbers = mechanism.unit, mechanism.linkage, acting_numbers(acting)
     if speeds is None:  # without friction, which `check` refuses at rest
@@ -186,7 +186,7 @@ def _at_rest(
     4.5.
     """
 
-    def of_group(given: tuple[Rows, Int[Array, " poses"], Inputs], acting: ActingNumbers) -> Inputs:
+    def of_group(given: tuple[JointDisplacements, Int[Array, " poses"], Inputs], acting: ActingNumbers) -> Inputs:
         displacements, status, inputs = given
         own = known._replace(displacements=displacements, status=status)
         # without the barrier XLA computes derivatives anew wherever they are used
@@ -208,11 +208,11 @@ def _at_rest(
     return {name: jnp.where(closed, force, jnp.nan) for name, force in forces.items()}, powers
 
 
-def _slopes(energy: Callable[[Rows], Float[Array, " poses"]], found: Changes) -> Inputs:
+def _slopes(energy: Callable[[JointDisplacements], Float[Array, " poses"]], found: Changes) -> Inputs:
     """Differentiate an energy by each driven displacement."""
     if len(found.along) == 1:  # forwards nothing is kept for a way back, which takes three fifths of the time
         ((name, along),) = found.along.items()
-        return {name: jax.jvp(energy, (found.displacements,), (rows_of(along, found.displacements),))[1]}
+        return {name: jax.jvp(energy, (found.displacements,), (by_joint(along, found.displacements),))[1]}
     # backwards once, for any number of drives: forwards, each of them would be as long a program
     each = jax.grad(lambda rows: jnp.sum(energy(rows)))(found.displacements)
     return {

@@ -32,7 +32,7 @@ from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.solve.execution.compiler import whole_program
 
-Row = Sequence[Float[Array, "#poses"]]
+WeightRow = Sequence[Float[Array, "#poses"]]
 """A row of four numbers in each pose: three in the axes of a frame, and one for its origin."""
 Transform = Float[Array, "4 4"]
 
@@ -127,10 +127,10 @@ def potential(
 ) -> Float[Array, " poses"]:
     """Compute the potential energy of all weights, in newtons times the unit of the mechanism; zero at the middle."""
     moving = [each for each in _passages(linkage)[0] if each.moves]
-    rows: list[Row] = [[*(number[None] for number in jnp.asarray(gravity, float)), jnp.zeros(1)]]
+    rows: list[WeightRow] = [[*(number[None] for number in jnp.asarray(gravity, float)), jnp.zeros(1)]]
     turns = _turns(linkage, moving, displacements)
     for each, enters in zip(moving, weights.enters, strict=True):
-        row: Row = _times(rows[each.row_before], enters)
+        row: WeightRow = _times(rows[each.row_before], enters)
         for axis, how_far in _motions(linkage, each, displacements[each.joint], turns):
             row = displaced_columns(row, axis, *how_far)
         # found once: XLA would find the whole chain anew wherever it is used
@@ -221,7 +221,7 @@ def _back(advance: Any, turn: tuple[Any, Any] | None) -> tuple[Any, Any]:
     return None if advance is None else -advance, None if turn is None else (turn[0], -turn[1])
 
 
-def _times(row: Row, frame: Transform) -> Row:
+def _times(row: WeightRow, frame: Transform) -> WeightRow:
     """Multiply a row by a frame from the right."""
     found = [row[0] * frame[0, j] + row[1] * frame[1, j] + row[2] * frame[2, j] for j in range(4)]
     return [*found[:3], found[3] + row[3]]

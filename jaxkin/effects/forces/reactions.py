@@ -44,7 +44,7 @@ from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.units import METRES
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.mechanism.known_motion import Inputs, KnownDrive, Rows, known_motion
+from jaxkin.mechanism.known_motion import Inputs, KnownDrive, known_motion
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.singularity import singular_report
 from jaxkin.solve.execution.compiler import whole_program
@@ -158,15 +158,15 @@ jax.tree_util.register_dataclass(
 )
 
 
-class _JointRows(NamedTuple):
+class _JointReactions(NamedTuple):
     """The fields of `Reactions` of these names, of all joints in the order of the linkage."""
 
-    points: Rows
-    forces: Rows
-    torques: Rows
+    points: tuple[Float[Array, "poses 3"], ...]
+    forces: tuple[Float[Array, "poses 3"], ...]
+    torques: tuple[Float[Array, "poses 3"], ...]
     drives: Inputs
     """By full name of the driven coordinate."""
-    held: Rows
+    held: tuple[Float[Array, "poses _"], ...]
 
 
 def reactions(
@@ -220,10 +220,10 @@ def _nan_where(locked: Array, rows: Array) -> Array:
 @partial(whole_program, static=(0, 1))
 def _without_friction(
     drive: KnownDrive, unit: str, linkage: Linkage, status: Int[Array, " poses"], found: Changes, acting: ActingNumbers
-) -> _JointRows:
+) -> _JointReactions:
     """Compute what `_balanced` returns, by groups of poses that are placed and solved one after another."""
 
-    def of_group(given: tuple[Int[Array, " poses"], Changes], acting: ActingNumbers) -> _JointRows:
+    def of_group(given: tuple[Int[Array, " poses"], Changes], acting: ActingNumbers) -> _JointReactions:
         status, found = given
         moving = MovingParts.of(linkage, found, chords=True)
         return _balanced(drive, unit, linkage, status, moving, loads(linkage, unit, acting, moving), {})
@@ -240,7 +240,7 @@ def _balanced(
     moving: MovingParts,
     all_loads: Loads,
     frictional: dict[int, Wrench],
-) -> _JointRows:
+) -> _JointReactions:
     """Balance all parts in each pose, and compute what joints transmit: NaN at poses that are not closed.
 
     The wrenches `frictional` of friction act on part 2 of joints, by number.
@@ -280,4 +280,4 @@ def _balanced(
         for arm, wrench in zip(found.arms, sent.wrenches, strict=True)
     )
     points = tuple((size * arm + middle[:, None]).T for arm in found.arms)
-    return _JointRows(points, forces, torques, drives, held)
+    return _JointReactions(points, forces, torques, drives, held)

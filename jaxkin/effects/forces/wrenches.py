@@ -27,8 +27,9 @@ from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.units import METRES
 from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.coordinates import coordinate
+from jaxkin.linkage.joint_motion import JointDisplacements
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.mechanism.known_motion import Inputs, Rows
+from jaxkin.mechanism.known_motion import Inputs, JointRates
 from jaxkin.mechanism.motion import Motion
 from jaxkin.solve.execution.compiler import whole_program
 
@@ -73,8 +74,8 @@ class MovingParts(NamedTuple):
     """Where the parts are, and how they move."""
 
     at: Places
-    displacements: Rows
-    velocity: Rows | None
+    displacements: JointDisplacements
+    velocity: JointRates | None
     """Rates of all joints; None at rest."""
     twists: dict[str, Twist]
     """Of all parts that are not fixed; none at rest."""

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from jaxkin.solve.closed_form.assembled_axes import Axes
+from jaxkin.solve.closed_form.assembled_axes import AssembledAxes
 from jaxkin.solve.closed_form.complex_numbers import Complex, scale
 from jaxkin.solve.closed_form.coordinate import Coordinate, Coordinates
 from jaxkin.solve.closed_form.planar_dyad import PlanarDisplacement, about, compose
@@ -21,14 +21,14 @@ def moving_rows(system: LoopSystem, chain: int, begin: int = 0, end: int | None 
     return [row for row in range(begin, len(column) if end is None else end) if column[row] < system.columns]
 
 
-def planar_place(system: LoopSystem, axes: Axes, row: int, chain: int) -> Complex:
+def planar_place(system: LoopSystem, axes: AssembledAxes, row: int, chain: int) -> Complex:
     """Find the centre of a row that turns, or the direction of one that slides."""
     x, y = (axes.centre if chain_tables(system).turn[row, chain] else axes.direction)[row, chain]
     return Complex(x, y)
 
 
 def planar_product(
-    system: LoopSystem, axes: Axes, chain: int, rows: Sequence[int], x: Coordinates
+    system: LoopSystem, axes: AssembledAxes, chain: int, rows: Sequence[int], x: Coordinates
 ) -> PlanarDisplacement:
     """Multiply the motions of some rows of a chain at the coordinates `x`."""
     table = chain_tables(system)
@@ -45,7 +45,7 @@ def planar_product(
     return product or PlanarDisplacement(Complex(one, zero), Complex(zero, zero))
 
 
-def planar_rest(axes: Axes, chain: int) -> PlanarDisplacement:
+def planar_rest(axes: AssembledAxes, chain: int) -> PlanarDisplacement:
     """Compute what a chain leaves open in the assembled pose."""
     (cos, _), (sin, _) = axes.open_turn[chain]
     return PlanarDisplacement(Complex(cos, sin), Complex(*axes.open_shift[chain]))
@@ -53,7 +53,7 @@ def planar_rest(axes: Axes, chain: int) -> PlanarDisplacement:
 
 def displace(
     system: LoopSystem,
-    axes: Axes,
+    axes: AssembledAxes,
     chain: int,
     rows: Sequence[int],
     x: Coordinates,

@@ -12,7 +12,7 @@ from jaxtyping import Array, Float
 
 from jaxkin.solve.closed_form import planar_dyad, rod, spherical_triangle
 from jaxkin.solve.closed_form.arithmetic import Number, namespace
-from jaxkin.solve.closed_form.assembled_axes import Axes
+from jaxkin.solve.closed_form.assembled_axes import AssembledAxes
 from jaxkin.solve.closed_form.chain_motions import (
     displace,
     moving_rows,
@@ -42,7 +42,7 @@ class Solved(NamedTuple):
         return namespace(*rows).stack(rows)
 
 
-def assembled_roots(system: LoopSystem, axes: Axes) -> list[Number]:
+def assembled_roots(system: LoopSystem, axes: AssembledAxes) -> list[Number]:
     """Compute the signed root of the discriminant of every group in the assembled pose: its sign is that of the branch.
 
     All coordinates are taken as zero there.
@@ -52,7 +52,7 @@ def assembled_roots(system: LoopSystem, axes: Axes) -> list[Number]:
 
 
 def solve_groups(
-    system: LoopSystem, axes: Axes, signs: Sequence[Number], inputs: Float[Array | np.ndarray, "driven poses"]
+    system: LoopSystem, axes: AssembledAxes, signs: Sequence[Number], inputs: Float[Array | np.ndarray, "driven poses"]
 ) -> Solved:
     """Compute all coordinates for inputs in radians and characteristic lengths, on the branches of these signs."""
     xp = namespace(inputs, axes.centre)
@@ -71,7 +71,7 @@ def solve_groups(
 
 def solve_once(
     system: LoopSystem,
-    axes: Axes,
+    axes: AssembledAxes,
     signs: Float[Array | np.ndarray, "groups 1"],
     inputs: Float[Array | np.ndarray, "driven poses"],
 ) -> Solved:
@@ -79,7 +79,7 @@ def solve_once(
     if namespace(inputs, axes.centre) is np:
         return solve_groups(system, axes, list(signs), inputs)
 
-    def solved(axes: Axes, signs: Array, inputs: Array) -> Solved:
+    def solved(axes: AssembledAxes, signs: Array, inputs: Array) -> Solved:
         return jax.tree.map(jnp.asarray, solve_groups(system, axes, list(signs), inputs))
 
     return computed_once(solved, axes, signs, inputs)
@@ -94,7 +94,7 @@ def _formulas(system: LoopSystem) -> list[GroupFormula]:
 
 
 def _solve(
-    system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordinates, sign: Number
+    system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, x: Coordinates, sign: Number
 ) -> tuple[list[Coordinate], Number]:
     """Compute the coordinates of a group, and its discriminant."""
     if formula.name == "planar dyad":
@@ -112,7 +112,7 @@ def _solve(
     return [found(motion).times(sense) for motion, sense in zip(motions, senses, strict=True)], discriminant
 
 
-def _signed_root(system: LoopSystem, axes: Axes, formula: GroupFormula, rest: Coordinates) -> Number:
+def _signed_root(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, rest: Coordinates) -> Number:
     """Compute the signed root of the discriminant of a group, whose unknowns are zero, at the coordinates `rest`."""
     if formula.name == "planar dyad":
         return planar_dyad.signed_root(formula.letters, *_planar(system, axes, formula, rest))
@@ -125,7 +125,7 @@ def _signed_root(system: LoopSystem, axes: Axes, formula: GroupFormula, rest: Co
     return rod.signed_root_of_slide(axis, near, far)
 
 
-def _planar(system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordinates):
+def _planar(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, x: Coordinates):
     """Find the places and known displacements of a dyad: the arguments of `planar_dyad`."""
     chain, (one, two, three) = formula.chain, formula.rows
     places = [planar_place(system, axes, row, chain) for row in formula.rows]
@@ -137,7 +137,7 @@ def _planar(system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordinate
     return places, [product(one + 1, two), product(two + 1, three), planar_dyad.compose(behind, product(0, one))]
 
 
-def _spherical(system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordinates):
+def _spherical(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, x: Coordinates):
     """Find the axes and known rotations of a spherical triangle: the arguments of `spherical_triangle`."""
     chain, (one, two, three) = formula.chain, formula.rows
     found = [axes.direction[row, chain, :, None] for row in formula.rows]
@@ -159,7 +159,7 @@ def _spherical(system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordin
     ]
 
 
-def _rod(system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordinates):
+def _rod(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, x: Coordinates):
     """Find the balls of a rod as seen from the unknown, and the length of the rod: arguments of the formulas of `rod`.
 
     The chain begins in the first ball, at the origin of its coordinates, and ends in the second; the rod is the other
@@ -178,13 +178,13 @@ def _rod(system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordinates):
     return near, far, namespace(end).sqrt(dot(end, end))
 
 
-def _axis(axes: Axes, formula: GroupFormula):
+def _axis(axes: AssembledAxes, formula: GroupFormula):
     """Find the direction of the axis of the unknown, and a point on it."""
     here = formula.rows[0], formula.chain
     return axes.direction[here][:, None], axes.centre[here][:, None]
 
 
-def residual_norm(system: LoopSystem, axes: Axes, rows: Coordinates) -> Float[Array | np.ndarray, " poses"]:
+def residual_norm(system: LoopSystem, axes: AssembledAxes, rows: Coordinates) -> Float[Array | np.ndarray, " poses"]:
     """Compute the square root of Eq. 12 over all loops, as `closure` does, of systems whose groups are formulas.
 
     `rows` are the coordinates of all columns.
@@ -215,6 +215,6 @@ def residual_norm(system: LoopSystem, axes: Axes, rows: Coordinates) -> Float[Ar
     return xp.sqrt(square)
 
 
-def _end(system: LoopSystem, axes: Axes, chain: int, x: Coordinates):
+def _end(system: LoopSystem, axes: AssembledAxes, chain: int, x: Coordinates):
     """Find where a chain ends, (3, poses)."""
     return displace(system, axes, chain, moving_rows(system, chain), x, axes.open_shift[chain, :, None])

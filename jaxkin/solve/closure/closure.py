@@ -23,8 +23,6 @@ from jaxkin.solve.system.joints import CouplingNumbers, Joints, scaled_frames
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, is_driven
 
-Given = Array | np.ndarray
-
 
 class Geometry(NamedTuple):
     """The constants of a loop system, lengths over the characteristic length."""
@@ -74,9 +72,9 @@ def closure(system: LoopSystem, geometry: Geometry, state: State) -> Closure:
 
 def loop_geometry(
     system: LoopSystem,
-    frames_1: tuple[Given, ...],
-    frames_2: tuple[Given, ...],
-    pitch: tuple[Given, ...],
+    frames_1: tuple[Array | np.ndarray, ...],
+    frames_2: tuple[Array | np.ndarray, ...],
+    pitch: tuple[Array | np.ndarray, ...],
     couplings: tuple[CouplingNumbers, ...] = (),
     curves: tuple[tuple[Followed | None, ...], ...] = (),
     constant: bool = True,

@@ -33,9 +33,6 @@ MAX_UNROLLED_SUM_TERMS = 32
 """Largest number of terms of a sum that is written out: compile time grows with the number."""
 
 
-Numbers = Array | np.ndarray
-
-
 class Planar(NamedTuple):
     """Constants of the loops in the plane, lengths divided by the characteristic length.
 
@@ -169,7 +166,13 @@ def planar_geometry(system: LoopSystem, space: Spatial) -> Planar:
 
 
 def squared_off_plane(
-    axis: Numbers, turning: Numbers, moves: Numbers, normal: Numbers, rotation: Numbers, shift: Numbers, xp: Any = jnp
+    axis: Array | np.ndarray,
+    turning: Array | np.ndarray,
+    moves: Array | np.ndarray,
+    normal: Array | np.ndarray,
+    rotation: Array | np.ndarray,
+    shift: Array | np.ndarray,
+    xp: Any = jnp,
 ) -> Any:
     """Compute the squared residual of planar loops out of their plane (Eq. 12), which no motion in the plane can close.
 
