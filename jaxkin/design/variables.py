@@ -31,7 +31,7 @@ class Free:
     upper: Any
 
 
-class Values(NamedTuple):
+class Design(NamedTuple):
     """A design: the values of all variables by name."""
 
     lengths: dict[Any, Any]
@@ -91,7 +91,7 @@ class Variables:
             names += [label + "".join(f"[{i}]" for i in index) for index in np.ndindex(entry.shape)]
         return names
 
-    def values(self, vector) -> Values:
+    def values(self, vector) -> Design:
         """Make the design that a vector stands for."""
         fixed = dict(zip(self.fixed_keys, self.fixed_inputs, strict=True))
         found: dict[str, dict] = {"lengths": {}, "points": {}, "inputs": fixed, "extras": {}}
@@ -106,7 +106,7 @@ class Variables:
         for key, given in found["inputs"].items():
             if callable(given):
                 found["inputs"][key] = given(found["extras"])
-        return Values(**found)
+        return Design(**found)
 
     def with_functions(self, traced: Callable[..., Any]) -> Variables:
         """Replace functions of extras, and those of ties, by what `traced` makes of the function, a name, and the

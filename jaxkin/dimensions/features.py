@@ -15,9 +15,9 @@ from jaxkin.joints.joint import Joint
 from jaxkin.linkage.linkage import Linkage
 
 Side = Literal["frames_1", "frames_2"]
-Kind = Literal["point", "axis", "plane"]
+FeatureKind = Literal["point", "axis", "plane"]
 Quantity = Literal["distance", "radius", "angle", "offset", "pitch"]
-Key = tuple[str, ...]
+LengthName = tuple[str, ...]
 
 
 class Feature(NamedTuple):
@@ -28,7 +28,7 @@ class Feature(NamedTuple):
     side: Side
     frame: int
     """Index of the frame in the chain of the joint."""
-    kind: Kind
+    kind: FeatureKind
     axis: int
     """Which axis of the frame is the axis, or the normal of the plane."""
     marked: bool
@@ -59,9 +59,9 @@ def part_features(linkage: Linkage) -> dict[str, tuple[Feature, ...]]:
     return {row: tuple(features) for row, features in found.items()}
 
 
-def length_table(linkage: Linkage) -> dict[Key, Length]:
+def length_table(linkage: Linkage) -> dict[LengthName, Length]:
     """List all lengths of a mechanism by name, see `Mechanism.lengths`; only structure and movements are used."""
-    table: dict[Key, Length] = {}
+    table: dict[LengthName, Length] = {}
     names = [joint.name for joint in linkage.joints]
     for row, features in part_features(linkage).items():
         for i, j in combinations(range(len(features)), 2):

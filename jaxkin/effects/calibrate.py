@@ -13,7 +13,7 @@ import numpy as np
 from jaxtyping import Array, Bool, Float
 
 from jaxkin._arguments import by_name, check_known, check_mechanism, whole_number
-from jaxkin.effects.calibration_data import Data, Kind, data_of
+from jaxkin.effects.calibration_data import Data, MeasuredQuantity, data_of
 from jaxkin.effects.calibration_result import Calibration
 from jaxkin.effects.calibration_unknowns import Nominal, Unknowns, unknowns_of
 from jaxkin.effects.rank_deficient_fit import Fit, fit, readable, told
@@ -32,7 +32,7 @@ class Model:
     """What is fitted to what: static to JAX."""
 
     unknowns: Unknowns
-    kinds: tuple[Kind, ...]
+    kinds: tuple[MeasuredQuantity, ...]
     driven: tuple[Any, ...]
     """Keys of the drive."""
     options: SolverOptions

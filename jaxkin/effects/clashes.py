@@ -13,7 +13,7 @@ from jaxtyping import Bool, Float
 from jaxkin._arguments import check_known, check_motion, numbers, several
 from jaxkin._grouped import MAX_LINES
 from jaxkin._names import nearest
-from jaxkin.effects.clash_shapes import Shape, boxes_along, displaced, near_pairs, shape_of
+from jaxkin.effects.clash_shapes import ClashShape, boxes_along, displaced, near_pairs, shape_of
 from jaxkin.effects.invariant_faces import SAME_PLACE, invariant
 from jaxkin.effects.penetration import depths
 from jaxkin.effects.pose_plot import NAMED, draw_lines, save_rows
@@ -236,7 +236,7 @@ def _misfits(mechanism: Mechanism) -> dict[frozenset[str], dict[tuple[tuple[str,
     return found
 
 
-def _slack(one: Shape, other: Shape, misfits: dict, least: float) -> Slack:
+def _slack(one: ClashShape, other: ClashShape, misfits: dict, least: float) -> Slack:
     """Say by how much the triangles of two shapes may overlap, and which of them are in contact by design."""
     shapes = {one.part.name: one, other.part.name: other}
     numbers = {name: {face.name: k for k, face in enumerate(shape.part.faces)} for name, shape in shapes.items()}
@@ -253,7 +253,7 @@ def _slack(one: Shape, other: Shape, misfits: dict, least: float) -> Slack:
 
 
 def _clearances(
-    one: Shape, other: Shape, moved: Displaced, slack: Slack, within: float, joined: bool, still: float
+    one: ClashShape, other: ClashShape, moved: Displaced, slack: Slack, within: float, joined: bool, still: float
 ) -> Float[np.ndarray, " poses"]:
     """Measure the clearance of two shapes at each displacement."""
     count = len(moved.shift)

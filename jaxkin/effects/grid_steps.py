@@ -43,7 +43,7 @@ SLACK = 1e-12
 """Deviation from a prediction that is always accepted, radians or characteristic lengths: rounding."""
 
 
-class Steps(NamedTuple):
+class StepResults(NamedTuple):
     """What became of a batch of steps."""
 
     states: tuple[State, ...]
@@ -74,7 +74,7 @@ class GridSteps:
         self.systems = tuple(loop_group.system for loop_group in loop_groups)
         self.joints = tuple(loop_group.joints for loop_group in loop_groups)
 
-    def follow(self, states: Sequence[Sequence[np.ndarray]], begin: NodeInputs, end: NodeInputs) -> Steps:
+    def follow(self, states: Sequence[Sequence[np.ndarray]], begin: NodeInputs, end: NodeInputs) -> StepResults:
         """Step from poses to others, once more in shorter steps where the first is not taken."""
         found = self.walk(states, begin, end, 1)
         for count, most in ((SHORT_STEPS, np.inf), (SHORTEST_STEPS, self.max_residual)):
@@ -92,7 +92,7 @@ class GridSteps:
         end: NodeInputs,
         count: int,
         to_end: bool = True,
-    ) -> Steps:
+    ) -> StepResults:
         """Walk from poses to others in `count` steps each, a batch at a time.
 
         Unless `to_end`, loops are not closed any more behind a step that is not taken: their residual tells nothing.
@@ -111,7 +111,7 @@ class GridSteps:
         return jax.tree.map(lambda *each: np.concatenate(each, axis=-1)[..., :size], *parts)
 
 
-def _merged(found: Steps, again: Steps, failed: np.ndarray) -> Steps:
+def _merged(found: StepResults, again: StepResults, failed: np.ndarray) -> StepResults:
     """Replace the steps that failed by those that were tried again."""
 
     def put(one: np.ndarray, other: np.ndarray) -> np.ndarray:
@@ -133,7 +133,7 @@ def _walk(
     count: int | Array,
     to_end: bool | Array,
     max_residual: float | Array,
-) -> Steps:
+) -> StepResults:
     """Move the inputs of closed poses from `begin` to `end` in so many steps; all loop groups have to follow."""
     size = states[0].x.shape[-1]
     yes, zero = jnp.ones(size, bool), jnp.zeros(size)
@@ -164,4 +164,4 @@ def _walk(
         state, taken, residual, still = lax.fori_loop(0, count, step, (state, taken, zero, yes))
         square, stationary = square + residual**2, stationary & still
         found.append(state)
-    return Steps(tuple(found), taken, jnp.sqrt(square), stationary)
+    return StepResults(tuple(found), taken, jnp.sqrt(square), stationary)

@@ -12,7 +12,7 @@ from jaxtyping import Float
 from jaxkin._arguments import by_name, check_mechanism, whole_number
 from jaxkin._traced import traced
 from jaxkin.dimensions.lengths import find_length, lengths_now
-from jaxkin.effects.design_batch import Measured, evaluate, value_and_slopes
+from jaxkin.effects.design_batch import DesignMeasure, evaluate, value_and_slopes
 from jaxkin.effects.pin_play import directions_of_play
 from jaxkin.effects.tolerance import Tolerance, as_tolerance, named
 from jaxkin.effects.tolerance_result import Tolerances
@@ -77,7 +77,7 @@ def tolerances(
     nominal = _nominal(mechanism, stated)
     limits = _limits_of(wanted)
     directions = {name: directions_of_play(mechanism.linkage, name) for name in played}
-    measured = Measured(
+    measured = DesignMeasure(
         measure,
         tuple(stated),
         tuple(directions.items()),
@@ -115,7 +115,7 @@ def tolerances(
 
 def _sampled(
     found: Tolerances,
-    measured: Measured,
+    measured: DesignMeasure,
     mechanism: Mechanism,
     driven: tuple[Any, ...],
     start: Float[np.ndarray, " numbers"],

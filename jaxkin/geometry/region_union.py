@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from jaxkin.geometry.facets import Facets, TriangleIndices
-from jaxkin.geometry.region_growing import LOOSE_TOLERANCE, TIGHT_TOLERANCE, Region
+from jaxkin.geometry.region_growing import LOOSE_TOLERANCE, TIGHT_TOLERANCE, MeshRegion
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.geometry.tessellation_test import arcs, on, surface_of
 
@@ -40,7 +40,7 @@ def rough_tolerance(mesh: Facets, rows: TriangleIndices) -> float:
     return min(_ROUGH_TOLERANCE * mesh.tolerance, _MAX_ROUGHNESS * extent)
 
 
-def united(mesh: Facets, found: list[Region]) -> list[Region]:
+def united(mesh: Facets, found: list[MeshRegion]) -> list[MeshRegion]:
     """Unite neighbouring round regions to which one surface fits within `LOOSE_TOLERANCE`, the largest regions first.
 
     The surface of the union must be of the kind of the larger region: a piece of a torus, taken alone, may lie on a
@@ -69,10 +69,10 @@ def united(mesh: Facets, found: list[Region]) -> list[Region]:
                 break
         else:
             kept = (k for k, region in enumerate(found) if not region.is_round or owner[region.rows[0]] == k)
-            return [Region(surfaces[k], rows[k]) for k in kept]
+            return [MeshRegion(surfaces[k], rows[k]) for k in kept]
 
 
-def absorbed(mesh: Facets, found: list[Region]) -> list[Region]:
+def absorbed(mesh: Facets, found: list[MeshRegion]) -> list[MeshRegion]:
     """Give the leftovers of a round face to it: small neighbouring regions that lie on its surface and are tangent.
 
     Such a region is free-form, a single triangle, of the kind of the face, or has up to `_FEW_CORNERS` corners. It is
@@ -111,10 +111,10 @@ def absorbed(mesh: Facets, found: list[Region]) -> list[Region]:
                 for n in np.unique(share).tolist():
                     rows[n] = np.sort(np.concatenate([rows[n], rows[k][share == n]]))
                 owner[rows[k]], rows[k] = share, rows[k][:0]
-    return [Region(region.surface, rows[k]) for k, region in enumerate(found) if len(rows[k])]
+    return [MeshRegion(region.surface, rows[k]) for k, region in enumerate(found) if len(rows[k])]
 
 
-def _is_leftover(mesh: Facets, region: Region, kind: type) -> bool:
+def _is_leftover(mesh: Facets, region: MeshRegion, kind: type) -> bool:
     """Check whether a region may be a piece of a face of a given kind of surface."""
     few = len(np.unique(mesh.triangles[region.rows])) <= _FEW_CORNERS
     if isinstance(region.surface, Plane):

@@ -33,7 +33,7 @@ PARALLEL_MATES = 1e-5
 mates to about 1e-6."""
 
 
-class Places:
+class ConstrainedParts:
     """The parts that joints and mates are on."""
 
     def __init__(self, export: Export, first: Paths, world: str | None) -> None:
@@ -69,7 +69,9 @@ class Places:
         return "it is not between two parts"
 
 
-def joints_between(joints: Iterable[ExportedJoint], where: Places, metres: float, notes: list[str]) -> list[Constraint]:
+def joints_between(
+    joints: Iterable[ExportedJoint], where: ConstrainedParts, metres: float, notes: list[str]
+) -> list[Constraint]:
     """Find the joints between parts; what is no joint that is known is added to the notes."""
     result = []
     for each in joints:
@@ -109,13 +111,15 @@ def _apart(movement: str, base: Transform, follower: Transform) -> tuple[float, 
 
 
 def mates_between(
-    mates: Iterable[ExportedMate], where: Places, metres: float, size: float, notes: list[str]
+    mates: Iterable[ExportedMate], where: ConstrainedParts, metres: float, size: float, notes: list[str]
 ) -> list[Constraint]:
     """Find the mates between parts of an assembly of a size; those that are not understood are added to the notes."""
     return [found for each in mates if (found := _mate(each, where, metres, PARALLEL_MATES * size, notes)) is not None]
 
 
-def _mate(each: ExportedMate, where: Places, metres: float, length: float, notes: list[str]) -> Constraint | None:
+def _mate(
+    each: ExportedMate, where: ConstrainedParts, metres: float, length: float, notes: list[str]
+) -> Constraint | None:
     text = f"{each.kind} {each.name!r}"
     parts = where.parts(each.sides[0].path, each.sides[1].path)
     if parts is None:

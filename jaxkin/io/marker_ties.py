@@ -47,19 +47,19 @@ class _Carried(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Bodies:
+class RigidGroups:
     """The parts of a file that do not move against each other."""
 
     of: Mapping[str, frozenset[str]]
     """Part -> all parts of its body."""
 
     @staticmethod
-    def among(made: MarkerJoints, fixed: Collection[str]) -> Bodies:
+    def among(made: MarkerJoints, fixed: Collection[str]) -> RigidGroups:
         """Find what fixed joints hold together, and what is at rest."""
         rigid = [each.parts for each in made.joints.values() if each.kind is JointKind.FIXED]
         held = [(first, other) for first, other in product(tuple(fixed)[:1], tuple(fixed)[1:])]
         groups = connected(list(made.links), [*rigid, *held])
-        return Bodies({part: frozenset(group) for group in groups for part in group})
+        return RigidGroups({part: frozenset(group) for group in groups for part in group})
 
     def carried(
         self, made: MarkerJoints, link: str, kinds: Collection[JointKind], name: str, axis: np.ndarray
@@ -84,7 +84,7 @@ SLIDES = (JointKind.PRISMATIC,)
 
 def add_tie(
     made: MarkerJoints,
-    bodies: Bodies,
+    bodies: RigidGroups,
     kind: str,
     name: str,
     one: Marker,
@@ -121,7 +121,9 @@ _NEEDED = {
 Factors = tuple[tuple[_Carried, float], tuple[_Carried, float]] | None
 
 
-def _about(made: MarkerJoints, bodies: Bodies, marker: Marker, axis: np.ndarray, near: float) -> Iterator[_Carried]:
+def _about(
+    made: MarkerJoints, bodies: RigidGroups, marker: Marker, axis: np.ndarray, near: float
+) -> Iterator[_Carried]:
     """Yield the joints that turn the part of a marker about a line through it."""
     for each in bodies.carried(made, marker.link, TURNS, "phi", axis):
         away = marker.pose[:3, 3] - each.joint.frame_1[:3, 3]
@@ -129,7 +131,7 @@ def _about(made: MarkerJoints, bodies: Bodies, marker: Marker, axis: np.ndarray,
             yield each
 
 
-def _gear(made: MarkerJoints, bodies: Bodies, one: Marker, other: Marker, sizes: Mapping[str, float]) -> Factors:
+def _gear(made: MarkerJoints, bodies: RigidGroups, one: Marker, other: Marker, sizes: Mapping[str, float]) -> Factors:
     near = COAXIAL * float(np.linalg.norm(one.pose[:3, 3] - other.pose[:3, 3]))
     first, second = (tuple(_about(made, bodies, each, each.pose[:3, 2], near)) for each in (one, other))
     for a, b in product(first, second):
@@ -138,7 +140,7 @@ def _gear(made: MarkerJoints, bodies: Bodies, one: Marker, other: Marker, sizes:
     return None
 
 
-def _rack(made: MarkerJoints, bodies: Bodies, one: Marker, other: Marker, sizes: Mapping[str, float]) -> Factors:
+def _rack(made: MarkerJoints, bodies: RigidGroups, one: Marker, other: Marker, sizes: Mapping[str, float]) -> Factors:
     near = COAXIAL * float(np.linalg.norm(one.pose[:3, 3] - other.pose[:3, 3]))
     slides = tuple(bodies.carried(made, one.link, SLIDES, "z", one.pose[:3, 0]))
     for a, b in product(slides, tuple(_about(made, bodies, other, one.pose[:3, 2], near))):
@@ -147,7 +149,7 @@ def _rack(made: MarkerJoints, bodies: Bodies, one: Marker, other: Marker, sizes:
     return None
 
 
-def _nut(made: MarkerJoints, bodies: Bodies, one: Marker, other: Marker, sizes: Mapping[str, float]) -> Factors:
+def _nut(made: MarkerJoints, bodies: RigidGroups, one: Marker, other: Marker, sizes: Mapping[str, float]) -> Factors:
     """Relate a slide of the one part and a turn of the other: the relation is the same for both ways round."""
     z = one.pose[:3, 2]
     for sliding, turning in ((one, other), (other, one)):
@@ -158,7 +160,7 @@ def _nut(made: MarkerJoints, bodies: Bodies, one: Marker, other: Marker, sizes: 
     return None
 
 
-def _screw(made: MarkerJoints, bodies: Bodies, one: Marker, other: Marker, pitch: float) -> bool:
+def _screw(made: MarkerJoints, bodies: RigidGroups, one: Marker, other: Marker, pitch: float) -> bool:
     """Make a screw of the cylindrical joint between the same two bodies; False where there is none."""
     ends = {bodies.of[one.link], bodies.of[other.link]}
     for each in made.joints.values():

@@ -16,7 +16,7 @@ from jaxkin.geometry.part import Face, Part
 from jaxkin.geometry.pose import Points, Transform, apply, unit
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere, Surface
 from jaxkin.io.step_check import Defect, unsound
-from jaxkin.io.step_glb import Color, Mesh
+from jaxkin.io.step_glb import Color, ProductMesh
 from jaxkin.io.step_side import Triangles, areas, points_outwards, winding
 
 _GROSS = 1e-3
@@ -63,7 +63,7 @@ class Solid:
         return Part(name, faces, apply(pose, self.triangles), color, (*notes, *damages)), damages
 
 
-def make_solid(mesh: Mesh, metres: float, uncertainty: float = 0.0) -> Solid:
+def make_solid(mesh: ProductMesh, metres: float, uncertainty: float = 0.0) -> Solid:
     """Make the solid of a mesh; `metres` is the unit of the file, `uncertainty` how far its faces may be off, in it."""
     triangles = mesh.triangles / metres
     tolerance = rounding(triangles)
@@ -95,7 +95,7 @@ def make_solid(mesh: Mesh, metres: float, uncertainty: float = 0.0) -> Solid:
 
 
 def _surfaces(
-    mesh: Mesh, triangles: Triangles, rows_of: Sequence[TriangleIndices], metres: float, tolerance: float
+    mesh: ProductMesh, triangles: Triangles, rows_of: Sequence[TriangleIndices], metres: float, tolerance: float
 ) -> list[Surface | None]:
     """Find the surface of each face: as the file says it, or fitted to a spline; None where it is none of the four."""
     found: list[Surface | None] = [None] * len(rows_of)

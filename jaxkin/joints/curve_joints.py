@@ -20,7 +20,7 @@ from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.limits import GivenLimits, with_limits
 from jaxkin.joints.profile_plane import ProfilePlane, ProfilePoint, profile_plane, profile_point
-from jaxkin.joints.profiles import Placed, check_simple, nearest_to, placed_profile, tangent_to, touching
+from jaxkin.joints.profiles import PlacedProfile, check_simple, nearest_to, placed_profile, tangent_to, touching
 
 Profile = Any
 """Points (x, y) of a profile, array-like of shape (n, 2)."""
@@ -201,7 +201,7 @@ def _follows(
     parts: tuple[str, str],
     kind: JointKind,
     plane: ProfilePlane,
-    curve: Placed,
+    curve: PlacedProfile,
     contact: ProfilePoint,
     height: float,
     point2: Triple,
@@ -226,7 +226,7 @@ def _flat(
     name: str,
     parts: tuple[str, str],
     plane: ProfilePlane,
-    curve: Placed,
+    curve: PlacedProfile,
     contact: ProfilePoint,
     face: Float[np.ndarray, "2"],
     limits: GivenLimits | None,

@@ -18,7 +18,7 @@ from jaxkin._traced import inside_trace, traced
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.trig import TURN
 from jaxkin.linkage.coordinates import InputValues, given_values, named, with_finite_inputs
-from jaxkin.mechanism.collect import Collected, DisplacementSources, Solution, collect
+from jaxkin.mechanism.collect import Collected, DisplacementSources, GroupSolution, collect
 from jaxkin.mechanism.describe import why_infeasible
 from jaxkin.mechanism.drive_plan import DrivenLoopGroup, DrivePlan, plan_drive
 from jaxkin.mechanism.joint_limits import with_limited
@@ -144,8 +144,8 @@ def _motion(mechanism: Mechanism, plan: DrivePlan, found: Collected, options: So
 
 
 def _of_least_residual(
-    loop_groups: Sequence[DrivenLoopGroup], solutions: Sequence[Solution], asked: ClosureTolerance
-) -> tuple[list[DrivenLoopGroup], list[Solution]]:
+    loop_groups: Sequence[DrivenLoopGroup], solutions: Sequence[GroupSolution], asked: ClosureTolerance
+) -> tuple[list[DrivenLoopGroup], list[GroupSolution]]:
     """Replace solutions of ideal joints by the poses of least residual of the joints that were given; of loop groups
     whose given joints disagree (`DrivenLoopGroup.given`)."""
     every, found = list(loop_groups), list(solutions)

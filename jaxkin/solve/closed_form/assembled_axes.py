@@ -19,7 +19,7 @@ from jaxkin.solve.system.chain_tables import AXES, chain_tables
 from jaxkin.solve.system.joints import Joints, scaled_frames
 from jaxkin.solve.system.loop_system import LoopSystem
 
-Poses = Float[Array | np.ndarray, "chains 4 4"]
+RigidPoses = Float[Array | np.ndarray, "chains 4 4"]
 
 
 class AssembledAxes(NamedTuple):
@@ -77,7 +77,7 @@ def assembled_axes(system: LoopSystem, joints: Joints) -> AssembledAxes:
     return AssembledAxes(direction @ plane.T, point @ plane.T, sense, advance, flat, shift @ plane.T, off_plane, length)
 
 
-def _inverse(poses: Poses, xp: Any) -> Poses:
+def _inverse(poses: RigidPoses, xp: Any) -> RigidPoses:
     """Invert rigid poses."""
     turned = xp.swapaxes(poses[:, :3, :3], 1, 2)
     moved = -xp.einsum("cij,cj->ci", turned, poses[:, :3, 3])
