@@ -6,7 +6,7 @@ of their numbers, as objectives are.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
@@ -26,10 +26,10 @@ from jaxkin.design.measures import (
     part_point,
     transmission_angle,
 )
+from jaxkin.design.objective import Extras
 from jaxkin.dimensions.features import LengthName
 from jaxkin.mechanism.motion import Motion
 
-Extras = Mapping[str, Any]
 Constraint = Callable[[Motion, Extras], Any] | Callable[[Motion], Any]
 
 

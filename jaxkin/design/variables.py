@@ -19,7 +19,7 @@ from jaxkin.dimensions.lengths import find_length
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
-Vector = Float[np.ndarray | Array, " variables"]
+DesignVector = Float[np.ndarray | Array, " variables"]
 
 
 @dataclass(frozen=True)
@@ -66,11 +66,11 @@ class Variables:
     """All variables, one after another. A pytree of bounds and fixed inputs."""
 
     entries: tuple[_Entry, ...] = field(metadata=STATIC)
-    start: Vector
+    start: DesignVector
     """The vector of the design that was given."""
-    lower: Vector
+    lower: DesignVector
     """Lower bounds."""
-    upper: Vector
+    upper: DesignVector
     """Upper bounds."""
     fixed_keys: tuple[Any, ...] = field(metadata=STATIC)
     """Keys of the drive that are no variables."""

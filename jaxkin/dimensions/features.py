@@ -14,8 +14,8 @@ from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.linkage import Linkage
 
-Side = Literal["frames_1", "frames_2"]
-FeatureKind = Literal["point", "axis", "plane"]
+JointSide = Literal["frames_1", "frames_2"]
+DatumKind = Literal["point", "axis", "plane"]
 Quantity = Literal["distance", "radius", "angle", "offset", "pitch"]
 LengthName = tuple[str, ...]
 
@@ -25,10 +25,10 @@ class Feature(NamedTuple):
 
     joint: int
     """Column of the joint in the mechanism."""
-    side: Side
+    side: JointSide
     frame: int
     """Index of the frame in the chain of the joint."""
-    kind: FeatureKind
+    kind: DatumKind
     axis: int
     """Which axis of the frame is the axis, or the normal of the plane."""
     marked: bool
@@ -86,7 +86,7 @@ def length_table(linkage: Linkage) -> dict[LengthName, Length]:
     return table
 
 
-def _feature(column: int, joint: Joint, side: Side, frame: int) -> Feature:
+def _feature(column: int, joint: Joint, side: JointSide, frame: int) -> Feature:
     """Find the feature of one frame of a joint; ValueError for a movement without one."""
     movement = MOVEMENTS[joint.movements[frame]]
     left = movement.feature

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from jaxtyping import Int
 
+from jaxkin.geometry.facets import TriangleIndices
 from jaxkin.geometry.fit import fit_surface, fit_torus, flipped, rounding
 from jaxkin.geometry.fit_together import Piece, fit_together
 from jaxkin.geometry.merge import merge_faces
@@ -39,8 +39,6 @@ met with 2.6e-3."""
 
 _OTHERS = ("torus",)
 """Kinds that the reader of STEP files names, and that are none of the four: nothing is fitted to these."""
-
-TriangleIndices = Int[np.ndarray, "rows"]
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,7 +10,7 @@ from jaxtyping import Float
 from jaxkin._traced import traced
 from jaxkin.geometry.curves import Curve, CurvePoint, Spline, sampled_pieces
 
-PlanePoint = Float[np.ndarray, "2"]
+Vector2 = Float[np.ndarray, "2"]
 
 LEAST_POINTS = 4
 """Points of a profile at least: as many as a cubic has coefficients."""
@@ -112,7 +112,7 @@ def replace_place(placed: PlacedProfile) -> PlacedProfile:
     return PlacedProfile(curve, curve.spline())
 
 
-def nearest_to(placed: PlacedProfile, point: PlanePoint) -> float:
+def nearest_to(placed: PlacedProfile, point: Vector2) -> float:
     """Find the parameter of the point of a profile that is nearest to a point of the plane."""
     s, at = placed.samples()
     q = float(s[np.argmin((at.x - point[0]) ** 2 + (at.y - point[1]) ** 2)])
@@ -129,7 +129,7 @@ def nearest_to(placed: PlacedProfile, point: PlanePoint) -> float:
     return q
 
 
-def tangent_to(placed: PlacedProfile, direction: PlanePoint, point: PlanePoint) -> float | None:
+def tangent_to(placed: PlacedProfile, direction: Vector2, point: Vector2) -> float | None:
     """Find the parameter at which a profile has a direction, where its tangent is nearest to a point of the plane.
 
     None where the profile nowhere has the direction.
@@ -160,7 +160,7 @@ def tangent_to(placed: PlacedProfile, direction: PlanePoint, point: PlanePoint) 
     return min(found, key=away, default=None)
 
 
-def touching(one: PlacedProfile, other: PlacedProfile, near: PlanePoint | None) -> tuple[float, float] | None:
+def touching(one: PlacedProfile, other: PlacedProfile, near: Vector2 | None) -> tuple[float, float] | None:
     """Find the parameters at which two profiles have a common normal, near a point, or where they are nearest.
 
     None where there is none near.

@@ -26,6 +26,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.pose import Vector
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.planes import ALIGNED
 from jaxkin.topology.components import connected
@@ -41,7 +42,6 @@ _DEPENDENT = 1e-4
 _ITERATIONS = 4
 """Steps of Newton's method: three take a relative error of 1e-3 below rounding."""
 
-Vector = Float[np.ndarray, "3"]
 PinDisplacements = Mapping[int, Vector]
 """Displacements of the pins of joints, by number of the joint; the others stay where they are."""
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from jaxkin.solve.closed_form.assembled_axes import AssembledAxes
 from jaxkin.solve.closed_form.complex_numbers import Complex, scale
-from jaxkin.solve.closed_form.coordinate import Coordinate, Coordinates
+from jaxkin.solve.closed_form.coordinate import Coordinate, FormulaCoordinates
 from jaxkin.solve.closed_form.planar_dyad import PlanarDisplacement, about, compose
 from jaxkin.solve.closed_form.vectors import Vector, rotate
 from jaxkin.solve.system.chain_tables import chain_tables
@@ -28,7 +28,7 @@ def planar_place(system: LoopSystem, axes: AssembledAxes, row: int, chain: int) 
 
 
 def planar_product(
-    system: LoopSystem, axes: AssembledAxes, chain: int, rows: Sequence[int], x: Coordinates
+    system: LoopSystem, axes: AssembledAxes, chain: int, rows: Sequence[int], x: FormulaCoordinates
 ) -> PlanarDisplacement:
     """Multiply the motions of some rows of a chain at the coordinates `x`."""
     table = chain_tables(system)
@@ -56,7 +56,7 @@ def displace(
     axes: AssembledAxes,
     chain: int,
     rows: Sequence[int],
-    x: Coordinates,
+    x: FormulaCoordinates,
     vector: Vector,
     *,
     inverse: bool = False,
@@ -77,7 +77,7 @@ def displace(
     return vector
 
 
-def _known(x: Coordinates, column: int) -> Coordinate:
+def _known(x: FormulaCoordinates, column: int) -> Coordinate:
     """Look up the coordinate of a column; ValueError where it is not solved yet."""
     found = x[column]
     if found is None:

@@ -20,7 +20,7 @@ from jaxkin.solve.closed_form.chain_motions import (
     planar_product,
     planar_rest,
 )
-from jaxkin.solve.closed_form.coordinate import REST, Coordinate, Coordinates, found, given
+from jaxkin.solve.closed_form.coordinate import REST, Coordinate, FormulaCoordinates, found, given
 from jaxkin.solve.closed_form.group_formulas import GroupFormula, group_formulas
 from jaxkin.solve.closed_form.vectors import dot
 from jaxkin.solve.lockstep import computed_once
@@ -47,7 +47,7 @@ def assembled_roots(system: LoopSystem, axes: AssembledAxes) -> list[Number]:
 
     All coordinates are taken as zero there.
     """
-    rest: Coordinates = [REST] * system.columns
+    rest: FormulaCoordinates = [REST] * system.columns
     return [_signed_root(system, axes, formula, rest) for formula in _formulas(system)]
 
 
@@ -94,7 +94,7 @@ def _formulas(system: LoopSystem) -> list[GroupFormula]:
 
 
 def _solve(
-    system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, x: Coordinates, sign: Number
+    system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, x: FormulaCoordinates, sign: Number
 ) -> tuple[list[Coordinate], Number]:
     """Compute the coordinates of a group, and its discriminant."""
     if formula.name == "planar dyad":
@@ -112,7 +112,7 @@ def _solve(
     return [found(motion).times(sense) for motion, sense in zip(motions, senses, strict=True)], discriminant
 
 
-def _signed_root(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, rest: Coordinates) -> Number:
+def _signed_root(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, rest: FormulaCoordinates) -> Number:
     """Compute the signed root of the discriminant of a group, whose unknowns are zero, at the coordinates `rest`."""
     if formula.name == "planar dyad":
         return planar_dyad.signed_root(formula.letters, *_planar(system, axes, formula, rest))
@@ -125,7 +125,7 @@ def _signed_root(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula,
     return rod.signed_root_of_slide(axis, near, far)
 
 
-def _planar(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, x: Coordinates):
+def _planar(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, x: FormulaCoordinates):
     """Find the places and known displacements of a dyad: the arguments of `planar_dyad`."""
     chain, (one, two, three) = formula.chain, formula.rows
     places = [planar_place(system, axes, row, chain) for row in formula.rows]
@@ -137,7 +137,7 @@ def _planar(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, x: C
     return places, [product(one + 1, two), product(two + 1, three), planar_dyad.compose(behind, product(0, one))]
 
 
-def _spherical(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, x: Coordinates):
+def _spherical(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, x: FormulaCoordinates):
     """Find the axes and known rotations of a spherical triangle: the arguments of `spherical_triangle`."""
     chain, (one, two, three) = formula.chain, formula.rows
     found = [axes.direction[row, chain, :, None] for row in formula.rows]
@@ -159,7 +159,7 @@ def _spherical(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, x
     ]
 
 
-def _rod(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, x: Coordinates):
+def _rod(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, x: FormulaCoordinates):
     """Find the balls of a rod as seen from the unknown, and the length of the rod: arguments of the formulas of `rod`.
 
     The chain begins in the first ball, at the origin of its coordinates, and ends in the second; the rod is the other
@@ -184,7 +184,9 @@ def _axis(axes: AssembledAxes, formula: GroupFormula):
     return axes.direction[here][:, None], axes.centre[here][:, None]
 
 
-def residual_norm(system: LoopSystem, axes: AssembledAxes, rows: Coordinates) -> Float[Array | np.ndarray, " poses"]:
+def residual_norm(
+    system: LoopSystem, axes: AssembledAxes, rows: FormulaCoordinates
+) -> Float[Array | np.ndarray, " poses"]:
     """Compute the square root of Eq. 12 over all loops, as `closure` does, of systems whose groups are formulas.
 
     `rows` are the coordinates of all columns.
@@ -215,6 +217,6 @@ def residual_norm(system: LoopSystem, axes: AssembledAxes, rows: Coordinates) ->
     return xp.sqrt(square)
 
 
-def _end(system: LoopSystem, axes: AssembledAxes, chain: int, x: Coordinates):
+def _end(system: LoopSystem, axes: AssembledAxes, chain: int, x: FormulaCoordinates):
     """Find where a chain ends, (3, poses)."""
     return displace(system, axes, chain, moving_rows(system, chain), x, axes.open_shift[chain, :, None])

@@ -31,7 +31,7 @@ from jaxkin.solve.execution.compiler import count_trace, jit_options
 from jaxkin.solve.execution.design_batches import all_designs, by_formulas_in_groups
 from jaxkin.solve.execution.known_numbers import KnownRange, Outcome, solve_numbers
 from jaxkin.solve.options import CONTINUATION, SolverOptions
-from jaxkin.solve.range.poses import FoundPoses
+from jaxkin.solve.range.poses import RangePoses
 from jaxkin.solve.range.solve_range import displacements, find_poses
 from jaxkin.solve.status import ClosureTolerance, Status
 from jaxkin.solve.system.joints import Joints
@@ -132,7 +132,7 @@ def _formulas_suffice(
     return axes is None or (line is not None and bool(line.passes & line.begins))
 
 
-def _outcome(poses: FoundPoses | FormulaPoses) -> Outcome:
+def _outcome(poses: RangePoses | FormulaPoses) -> Outcome:
     """Select status and residual norm."""
     return Outcome(poses.status, poses.residual_norm)
 
@@ -172,13 +172,13 @@ def _poses_by_formula(
 
 def _poses_of_all_designs(
     system: LoopSystem, options: SolverOptions, joints: Joints, inputs: Array, tolerance: ClosureTolerance
-) -> FoundPoses:
+) -> RangePoses:
     """Find poses by the general solver; under `vmap` of joints those of all designs: see `all_designs`."""
     count_trace()
     return all_designs(partial(find_poses, system, options), _all_closed)(joints, inputs, tolerance)
 
 
-def _all_closed(poses: FoundPoses) -> Array:
+def _all_closed(poses: RangePoses) -> Array:
     """Tell whether all poses of a design are CLOSED."""
     return jnp.all(poses.status == Status.CLOSED.value)
 

@@ -33,7 +33,7 @@ from jaxkin.solve.range.implicit_derivative import attach_derivative
 from jaxkin.solve.range.interpolation import SHARP_ROUNDINGS, interpolate
 from jaxkin.solve.range.other_paths import try_other_paths
 from jaxkin.solve.range.polish import correct_poses
-from jaxkin.solve.range.poses import MAX_CORRECTION, FoundPoses
+from jaxkin.solve.range.poses import MAX_CORRECTION, RangePoses
 from jaxkin.solve.reference_methods.minimise import minimise_each
 from jaxkin.solve.status import (
     CLOSED_ROUNDINGS,
@@ -73,7 +73,7 @@ def find_poses(
     shard_count: int = 1,
     shard_start: Int[Array, ""] | None = None,
     follow_limits: Bool[Array, ""] | bool = True,
-) -> FoundPoses:
+) -> RangePoses:
     """Find the poses of one shard of a range, for finite inputs, radians and lengths of the mechanism.
 
     The rows of `inputs` are in the order of `system.driven`. `inputs` is the shard (one of `shard_count`), or the whole
@@ -103,7 +103,7 @@ def displacements(
     system: LoopSystem,
     joints: Joints,
     inputs: Float[Array, "driven poses"],
-    poses: FoundPoses,
+    poses: RangePoses,
     size: int | None = DERIVATIVE_GROUP,
 ) -> Float[Array, "columns poses"]:
     """Compute the displacements of all joints in the poses found, as differentiable functions of joints and inputs.
@@ -113,7 +113,7 @@ def displacements(
     """
     geometry, lengths = scaled_geometry(system, joints)
 
-    def of_group(group: tuple[Array, FoundPoses]) -> Float[Array, "columns group"]:
+    def of_group(group: tuple[Array, RangePoses]) -> Float[Array, "columns group"]:
         inputs, poses = group
         state = attach_derivative(system, geometry, inputs, poses.state, closes_before_limits(poses.status))
         rotations = ball_rotations(system, geometry, state)
@@ -124,7 +124,7 @@ def displacements(
     return unwrap_ball_angles(system, found) if system.balls else found
 
 
-def _by_method(system: LoopSystem, options: SolverOptions, asked: _Range) -> FoundPoses:
+def _by_method(system: LoopSystem, options: SolverOptions, asked: _Range) -> RangePoses:
     """Find the poses by the method of the options."""
     geometry, tolerance = asked.geometry, asked.tolerance
     inputs = shard(asked.inputs, asked.shard_count, asked.shard_start)
@@ -132,18 +132,18 @@ def _by_method(system: LoopSystem, options: SolverOptions, asked: _Range) -> Fou
         state = drive(system, assembled(system, inputs.shape[1], inputs.dtype), inputs)
         residual_norm = closure(system, geometry, state).residual_norm
         yes = jnp.ones_like(residual_norm, bool)
-        return FoundPoses(state, classify(residual_norm, yes, yes, tolerance.max_residual), residual_norm)
+        return RangePoses(state, classify(residual_norm, yes, yes, tolerance.max_residual), residual_norm)
     if options.method != CONTINUATION:
         state, status, residual_norm = minimise_each(system, geometry, inputs, options.method, tolerance.max_residual)
-        return FoundPoses(state, status, residual_norm)
+        return RangePoses(state, status, residual_norm)
     if len(system.driven) == 1:
         return _of_one_input(system, options, asked._replace(inputs=inputs))
     if system.driven:
         return _of_several_inputs(system, options, asked)
-    return FoundPoses(*reach(ClosureProblem(system, geometry, options), inputs, inputs))
+    return RangePoses(*reach(ClosureProblem(system, geometry, options), inputs, inputs))
 
 
-def _of_one_input(system: LoopSystem, options: SolverOptions, asked: _Range) -> FoundPoses:
+def _of_one_input(system: LoopSystem, options: SolverOptions, asked: _Range) -> RangePoses:
     """Find the poses of a single input: on CPUs by interpolation if there are at least `options.interpolate_from`."""
     values = asked.inputs[0]
 
@@ -155,7 +155,7 @@ def _of_one_input(system: LoopSystem, options: SolverOptions, asked: _Range) -> 
     kept = samples.complete | asked.follow_limits
     values = jnp.where(kept, values, 0.0)
 
-    def corrected(values: Float[Array, " poses"]) -> FoundPoses:
+    def corrected(values: Float[Array, " poses"]) -> RangePoses:
         return correct_poses(problem, samples, values, values[None], asked.tolerance)
 
     one_by_one = partial(in_groups, corrected, size=group_size(system))
@@ -164,7 +164,7 @@ def _of_one_input(system: LoopSystem, options: SolverOptions, asked: _Range) -> 
     return _stalled_unless(kept, interpolate(problem, samples, values, one_by_one, asked.shard_count))
 
 
-def _of_several_inputs(system: LoopSystem, options: SolverOptions, asked: _Range) -> FoundPoses:
+def _of_several_inputs(system: LoopSystem, options: SolverOptions, asked: _Range) -> RangePoses:
     """Find the poses of several inputs along a curve through all poses; in a straight line where that fails."""
     geometry, follow_limits = asked.geometry, asked.follow_limits
     at, path = curve_through(asked.inputs)
@@ -174,7 +174,7 @@ def _of_several_inputs(system: LoopSystem, options: SolverOptions, asked: _Range
     kept = samples.complete | follow_limits
     at, inputs = jnp.where(kept, at, 0.0), jnp.where(kept, inputs, 0.0)
 
-    def corrected(group: tuple[Array, Array]) -> FoundPoses:
+    def corrected(group: tuple[Array, Array]) -> RangePoses:
         at, inputs = group
         return correct_poses(problem, samples, at, inputs, asked.tolerance)
 
@@ -191,7 +191,7 @@ def _of_several_inputs(system: LoopSystem, options: SolverOptions, asked: _Range
 
 def _of_neighbours(
     problem: ClosureProblem, samples: BranchSamples, one_by_one, group: tuple[Array, Array]
-) -> FoundPoses:
+) -> RangePoses:
     """Correct a group of neighbouring poses by chord steps, or by `one_by_one` if any of them does not close."""
     at, inputs = group
     prediction = predict(problem.system, samples, at)
@@ -203,10 +203,10 @@ def _of_neighbours(
     return lax.cond(
         any_in_lockstep(~good),
         lambda: one_by_one(group),
-        lambda: FoundPoses(state, prediction.status, residual_norm),
+        lambda: RangePoses(state, prediction.status, residual_norm),
     )
 
 
-def _stalled_unless(kept: Bool[Array, ""], poses: FoundPoses) -> FoundPoses:
+def _stalled_unless(kept: Bool[Array, ""], poses: RangePoses) -> RangePoses:
     """Return the poses, with status STALLED if their range was not traced completely and limits are not followed."""
     return poses._replace(status=jnp.where(kept, poses.status, Status.STALLED.value))
