@@ -60,6 +60,8 @@ class KnownDrive(NamedTuple):
     driven: tuple[tuple[str, int, int], ...]
     """Name, joint and coordinate of every input."""
     loop_groups: tuple[KnownLoopGroup, ...]
+    unit: str
+    """Of all lengths."""
 
 
 class KnownMotion(NamedTuple):
@@ -82,7 +84,8 @@ def known_motion(motion: Motion) -> tuple[KnownDrive, KnownMotion]:
     )
     driven = tuple((name, *place) for name, place in plan.driven.items())
     numbers = _numbers(plan, motion)[: len(loop_groups)]
-    return KnownDrive(plan.freedoms, driven, loop_groups), KnownMotion(numbers, motion.displacements, motion.status)
+    drive = KnownDrive(plan.freedoms, driven, loop_groups, motion.mechanism.unit)
+    return drive, KnownMotion(numbers, motion.displacements, motion.status)
 
 
 def _numbers(plan: DrivePlan, motion: Motion) -> tuple[Joints | AssembledAxes, ...]:

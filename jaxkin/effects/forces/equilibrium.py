@@ -13,12 +13,13 @@ from jaxtyping import Bool, Float, Int
 
 from jaxkin._arguments import by_name, check_known, check_mechanism, numbers
 from jaxkin._runs import runs
+from jaxkin.effects.forces.acting import STANDARD_GRAVITY, Acting, loads_and_frictions
 from jaxkin.effects.forces.drive import drive_forces
 from jaxkin.effects.forces.given import Applied, rows_per_pose
 from jaxkin.effects.forces.masses import Masses
 from jaxkin.effects.forces.reactions import HELD, Reactions, reactions
 from jaxkin.effects.forces.screws import Scale
-from jaxkin.effects.forces.wrenches import STANDARD_GRAVITY, Acting, loads_and_frictions, units_of
+from jaxkin.effects.forces.wrenches import units_of
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.units import METRES
