@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -115,23 +116,31 @@ class CurveContacts:
         return names, np.array([getattr(each, field) for each in self.contacts for field in fields])
 
 
-def made_contact(
-    joint: str,
-    what: str,
-    of: str,
-    place: tuple[PerPose, float, bool],
-    numbers: tuple[PerPose, PerPose, PerPose],
-    size: float,
-) -> CurveContact:
-    """Make a contact from what is known of it at each pose.
+class CurvePlace(NamedTuple):
+    """Where a contact is on its curve, or along a coordinate of its surface."""
 
-    `place` is the coordinate from the first of the points, NaN where the pose is not closed, the whole length of the
-    curve or surface, and whether that is closed; `numbers` are curvature, clearance and depth; `size` that of the
-    profile.
-    """
+    s: PerPose
+    """From the first of the points; NaN where the pose is not closed."""
+    whole: float
+    """The length of the curve or surface."""
+    closed: bool
+
+
+class CurveFit(NamedTuple):
+    """How a curve and what follows it fit together: fields of `CurveContact`, before rounding is taken for zero."""
+
+    curvature: PerPose
+    clearance: PerPose
+    depth: PerPose
+    size: float
+    """Of the profile."""
+
+
+def made_contact(joint: str, what: str, of: str, place: CurvePlace, fit: CurveFit) -> CurveContact:
+    """Make a contact from what is known of it at each pose; other arguments are fields of `CurveContact`."""
     s, whole, closed = place
     finite = np.isfinite(s)
-    curvature, clearance, depth = numbers
+    curvature, clearance, depth, size = fit
     beyond = np.zeros(len(s)) if closed else np.maximum(np.maximum(-s, s - whole), 0.0)
     kept = (
         np.mod(s, whole) if closed else s,

@@ -52,6 +52,17 @@ class StepResults(NamedTuple):
     stationary: Bool[Array, " steps"]
 
 
+class _Leg(NamedTuple):
+    """The inputs from which and to which steps lead, for each loop group those that drive it, and how."""
+
+    begin: tuple[Float[Array, "driven steps"], ...]
+    end: tuple[Float[Array, "driven steps"], ...]
+    count: int | Array
+    """Steps in all."""
+    to_end: bool | Array
+    """Whether loops are closed also behind a step that is not taken."""
+
+
 def neighbours(
     nodes: Int[np.ndarray, " nodes"], shape: tuple[int, int]
 ) -> tuple[Int[np.ndarray, " pairs"], Int[np.ndarray, " pairs"]]:
@@ -101,12 +112,12 @@ class GridSteps:
         for first in range(0, size, BATCH):
             which = np.minimum(np.arange(first, first + BATCH), size - 1)
             chosen = tuple(State(*(jnp.asarray(part[..., which]) for part in state)) for state in states)
-            rows = [
+            ends = [
                 tuple(jnp.asarray(each[np.array(e.inputs)][:, which]) for e in self.loop_groups)
                 for each in (begin, end)
             ]
-            program = partial(_walk, self.systems, self.options.of_program, self.joints)
-            found = program(chosen, *rows, count, to_end, self.max_residual)
+            leg = _Leg(ends[0], ends[1], count, to_end)
+            found = _walk(self.systems, self.options.of_program, self.joints, chosen, leg, self.max_residual)
             parts.append(jax.tree.map(np.asarray, found))
         return jax.tree.map(lambda *each: np.concatenate(each, axis=-1)[..., :size], *parts)
 
@@ -128,32 +139,29 @@ def _walk(
     options: SolverOptions,
     joints: tuple[Joints, ...],
     states: tuple[State, ...],
-    begin: tuple[Float[Array, "driven steps"], ...],
-    end: tuple[Float[Array, "driven steps"], ...],
-    count: int | Array,
-    to_end: bool | Array,
+    leg: _Leg,
     max_residual: float | Array,
 ) -> StepResults:
-    """Move the inputs of closed poses from `begin` to `end` in so many steps; all loop groups have to follow."""
+    """Move the inputs of closed poses along a leg; all loop groups have to follow."""
     size = states[0].x.shape[-1]
     yes, zero = jnp.ones(size, bool), jnp.zeros(size)
     taken, square, stationary, found = yes, zero, yes, []
-    for system, numbers, state, one, other in zip(systems, joints, states, begin, end, strict=True):
+    for system, numbers, state, one, other in zip(systems, joints, states, leg.begin, leg.end, strict=True):
         geometry, lengths = scaled_geometry(system, numbers)
         own = lengths[np.array(system.driven, int)]
         problem = ClosureProblem(system, geometry, options)
 
         def step(number, carry, system=system, geometry=geometry, problem=problem, ends=(one / own, other / own)):
-            """Move the inputs by step `number` of `count`, and close the loops there."""
+            """Move the inputs by step `number` of `leg.count`, and close the loops there."""
             state, taken, *_ = carry
             # shorter towards both ends, where a limit may be near: coordinates change as the root of the distance to it
-            done, then = (0.5 - 0.5 * jnp.cos(jnp.pi * k / count) for k in (number, number + 1))
+            done, then = (0.5 - 0.5 * jnp.cos(jnp.pi * k / leg.count) for k in (number, number + 1))
             direction = (then - done) * (ends[1] - ends[0])
             before = closure(system, geometry, state)
             slope = input_slopes(system, state, before, direction)
             predicted = drive(system, retract(system, state, slope), ends[0] + then * (ends[1] - ends[0]))
             target = rounding_residual(state.x.dtype, CLOSED_ROUNDINGS)
-            most = jnp.where(taken | to_end, options.rescue_steps, 0)
+            most = jnp.where(taken | leg.to_end, options.rescue_steps, 0)
             there = levenberg_marquardt(problem, predicted, most, target)
             travel = difference(predicted, state)
             ratio = determinant_ratio(before.jacobian, there.closure.jacobian, equation_blocks(system))
@@ -161,7 +169,7 @@ def _walk(
             good &= difference(there.state, predicted) <= MAX_DEVIATION * travel + SLACK
             return there.state, taken & good, there.residual_norm, there.stationary
 
-        state, taken, residual, still = lax.fori_loop(0, count, step, (state, taken, zero, yes))
+        state, taken, residual, still = lax.fori_loop(0, leg.count, step, (state, taken, zero, yes))
         square, stationary = square + residual**2, stationary & still
         found.append(state)
     return StepResults(tuple(found), taken, jnp.sqrt(square), stationary)

@@ -18,7 +18,7 @@ from jaxkin._names import nearest
 from jaxkin.geometry.inertial import Inertial
 from jaxkin.geometry.pose import Transform, is_rigid
 from jaxkin.io.marker_joints import CHAINS, KINDS, Marker, MarkerJoints
-from jaxkin.io.marker_ties import GEAR, RACK, SCREW, TIES, RigidGroups, add_tie
+from jaxkin.io.marker_ties import GEAR, RACK, SCREW, TIES, MarkerTie, RigidGroups, add_tie
 from jaxkin.io.robot_inertials import inertial
 from jaxkin.io.robot_model import WORLD, RobotLink, RobotModel, numbers, placed
 
@@ -145,7 +145,7 @@ class _Reader:
         for each in sorted(joints, key=lambda joint: joint.text != SCREW):  # screws first: gears may turn them
             if each.text in TIES:
                 sizes = self._sizes(each, SIZES_OF[each.text])
-                add_tie(made, bodies, each.text, each.said("Name"), *self._ends(each), sizes, _called(each))
+                add_tie(made, bodies, MarkerTie(each.text, each.said("Name"), *self._ends(each), sizes, _called(each)))
         motors = [
             made.motor(self._target(each), MOTIONS.get(each.text), _called(each))
             for each in self.root.every("ConstraintSets", "Motions")

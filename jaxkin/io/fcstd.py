@@ -14,7 +14,7 @@ import numpy as np
 from jaxkin.geometry.pose import Transform, unit
 from jaxkin.io.fcstd_document import Document, Item, Reference
 from jaxkin.io.marker_joints import Marker, MarkerJoints
-from jaxkin.io.marker_ties import GEAR, RACK, SCREW, SLIDES, TIES, RigidGroups, add_tie
+from jaxkin.io.marker_ties import GEAR, RACK, SCREW, SLIDES, TIES, MarkerTie, RigidGroups, add_tie
 from jaxkin.io.names import unique
 from jaxkin.io.robot_model import RobotLink, RobotModel, placed
 
@@ -264,7 +264,8 @@ class _Reader:
             if not any(bodies.carried(self.made, one.link, SLIDES, "z", one.pose[:3, 2])):
                 one, other = other, one
             one = _along_rack(one, other)
-        add_tie(self.made, bodies, kind, self.joints[joint.name], one, other, sizes, self._text(joint))
+        tie = MarkerTie(kind, self.joints[joint.name], one, other, sizes, self._text(joint))
+        add_tie(self.made, bodies, tie)
 
     def _motor(self, motion: Item) -> str | None:
         coordinate = MOTIONS.get(motion.choice("MotionType", tuple(MOTIONS)))

@@ -10,7 +10,7 @@ import numpy as np
 from jaxkin._names import nearest
 from jaxkin.geometry.inertial import NONE
 from jaxkin.geometry.pose import Transform
-from jaxkin.io.robot_couplings import follower
+from jaxkin.io.robot_couplings import Mimic, follower
 from jaxkin.io.robot_gravity import gravity_notes
 from jaxkin.io.robot_inertials import sdf_inertial
 from jaxkin.io.robot_model import (
@@ -203,7 +203,8 @@ class _Reader:
             float(numbers(mimic.findtext(key), 1, where, (none,))[0])
             for key, none in (("multiplier", 1), ("offset", 0), ("reference", 0))
         )
-        return follower(name, leader, factor, offset - factor * reference, joints, f"{where}: mimic", self.notes)
+        follows = Mimic(name, leader, factor, offset - factor * reference)
+        return follower(follows, joints, f"{where}: mimic", self.notes)
 
     def _axis(self, axis: Element | None, own: Transform, frames: SdfFrames, where: str) -> np.ndarray:
         """Read the direction of an axis in the frame of the model; z where none is written."""

@@ -10,7 +10,7 @@ import numpy as np
 from jaxkin._names import nearest
 from jaxkin.geometry.inertial import NONE, Inertial
 from jaxkin.geometry.pose import Transform
-from jaxkin.io.robot_couplings import follower
+from jaxkin.io.robot_couplings import Mimic, follower
 from jaxkin.io.robot_inertials import SIX, inertial
 from jaxkin.io.robot_loops import LoopPair, Loops, read_loops, unread_beside
 from jaxkin.io.robot_model import (
@@ -200,7 +200,7 @@ class _Reader:
         factor, offset = (
             float(numbers(found.get(key), 1, where, (none,))[0]) for key, none in (("multiplier", 1), ("offset", 0))
         )
-        return follower(name, leader, factor, offset, joints, where, self.notes)
+        return follower(Mimic(name, leader, factor, offset), joints, where, self.notes)
 
     def _limits(self, each: Element, where: str) -> JointLimits:
         """Read the limits of a joint: none where neither is written, and zero for the one that is not."""

@@ -71,7 +71,7 @@ def assembled_axes(system: LoopSystem, joints: Joints) -> AssembledAxes:
     turns = moves & (table.turn > 0)
     row, chain = np.argwhere(turns)[0]
     plane, normal = found[row, chain, :3, :2].T, direction[row, chain]
-    off_plane = squared_off_plane(direction, turns, moves, normal, turn, shift, xp)
+    off_plane = squared_off_plane(direction, turns, moves, normal, last, xp)
     sense = xp.where(turns, sense * xp.sign(direction @ normal), sense)
     flat = xp.einsum("ai,cij,bj->cab", plane, turn, plane)
     return AssembledAxes(direction @ plane.T, point @ plane.T, sense, advance, flat, shift @ plane.T, off_plane, length)

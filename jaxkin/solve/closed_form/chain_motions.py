@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -21,16 +22,29 @@ def moving_rows(system: LoopSystem, chain: int, begin: int = 0, end: int | None 
     return [row for row in range(begin, len(column) if end is None else end) if column[row] < system.columns]
 
 
+class ChainSection(NamedTuple):
+    """Rows of a chain, one after another in order of travel."""
+
+    system: LoopSystem
+    axes: AssembledAxes
+    chain: int
+    rows: Sequence[int]
+
+    @staticmethod
+    def of(system: LoopSystem, axes: AssembledAxes, chain: int, begin: int = 0, end: int | None = None) -> ChainSection:
+        """Take the rows that move, from `begin` to before `end`, by default all."""
+        return ChainSection(system, axes, chain, moving_rows(system, chain, begin, end))
+
+
 def planar_place(system: LoopSystem, axes: AssembledAxes, row: int, chain: int) -> Complex:
     """Find the centre of a row that turns, or the direction of one that slides."""
     x, y = (axes.centre if chain_tables(system).turn[row, chain] else axes.direction)[row, chain]
     return Complex(x, y)
 
 
-def planar_product(
-    system: LoopSystem, axes: AssembledAxes, chain: int, rows: Sequence[int], x: FormulaCoordinates
-) -> PlanarDisplacement:
-    """Multiply the motions of some rows of a chain at the coordinates `x`."""
+def planar_product(section: ChainSection, x: FormulaCoordinates) -> PlanarDisplacement:
+    """Multiply the motions of a section of a chain at the coordinates `x`."""
+    system, axes, chain, rows = section
     table = chain_tables(system)
     zero, one = np.zeros(1), np.ones(1)
     product = None
@@ -52,17 +66,10 @@ def planar_rest(axes: AssembledAxes, chain: int) -> PlanarDisplacement:
 
 
 def displace(
-    system: LoopSystem,
-    axes: AssembledAxes,
-    chain: int,
-    rows: Sequence[int],
-    x: FormulaCoordinates,
-    vector: Vector,
-    *,
-    inverse: bool = False,
-    free: bool = False,
+    section: ChainSection, x: FormulaCoordinates, vector: Vector, *, inverse: bool = False, free: bool = False
 ) -> Vector:
-    """Displace a point by the product of the motions of some rows, or its inverse; a `free` vector is only turned."""
+    """Displace a point by the product of the motions of a section, or its inverse; a `free` vector is only turned."""
+    system, axes, chain, rows = section
     table = chain_tables(system)
     for row in rows if inverse else reversed(rows):
         axis, centre = axes.direction[row, chain, :, None], axes.centre[row, chain, :, None]

@@ -14,8 +14,8 @@ from jaxkin.solve.closed_form import planar_dyad, rod, spherical_triangle
 from jaxkin.solve.closed_form.arithmetic import Number, namespace
 from jaxkin.solve.closed_form.assembled_axes import AssembledAxes
 from jaxkin.solve.closed_form.chain_motions import (
+    ChainSection,
     displace,
-    moving_rows,
     planar_place,
     planar_product,
     planar_rest,
@@ -131,7 +131,7 @@ def _planar(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, x: F
     places = [planar_place(system, axes, row, chain) for row in formula.rows]
 
     def product(begin: int, end: int | None) -> planar_dyad.PlanarDisplacement:
-        return planar_product(system, axes, chain, moving_rows(system, chain, begin, end), x)
+        return planar_product(ChainSection.of(system, axes, chain, begin, end), x)
 
     behind = planar_dyad.compose(product(three + 1, None), planar_rest(axes, chain))
     return places, [product(one + 1, two), product(two + 1, three), planar_dyad.compose(behind, product(0, one))]
@@ -144,8 +144,8 @@ def _spherical(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, x
     eye = np.eye(3)
 
     def rotated(begin: int, end: int | None, columns: Array | np.ndarray):
-        rows = moving_rows(system, chain, begin, end)
-        turned = [displace(system, axes, chain, rows, x, column[:, None], free=True) for column in columns]
+        section = ChainSection.of(system, axes, chain, begin, end)
+        turned = [displace(section, x, column[:, None], free=True) for column in columns]
         xp = namespace(*turned)
         return xp.stack(xp.broadcast_arrays(*turned), axis=1)
 
@@ -167,14 +167,12 @@ def _rod(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, x: Form
     """
     chain, (row,) = formula.chain, formula.rows
     origin = np.zeros((3, 1))
-    near = displace(system, axes, chain, moving_rows(system, chain, 0, row), x, origin, inverse=True)
-    behind = moving_rows(system, chain, row + 1)
-    far = displace(system, axes, chain, behind, x, axes.open_shift[chain, :, None])
+    near = displace(ChainSection.of(system, axes, chain, 0, row), x, origin, inverse=True)
+    far = displace(ChainSection.of(system, axes, chain, row + 1), x, axes.open_shift[chain, :, None])
     other = formula.other_chain
     if other is None:
         raise ValueError(f"the loop of {formula} is not cut at a rod")
-    rod_rows = moving_rows(system, other)
-    end = displace(system, axes, other, rod_rows, x, axes.open_shift[other, :, None])
+    end = _end(system, axes, other, x)
     return near, far, namespace(end).sqrt(dot(end, end))
 
 
@@ -195,7 +193,7 @@ def residual_norm(
     if system.planar:
         square = axes.off_plane
         for chain in range(len(system.loops)):
-            product = planar_product(system, axes, chain, moving_rows(system, chain), rows)
+            product = planar_product(ChainSection.of(system, axes, chain), rows)
             turn, shift = planar_dyad.compose(product, planar_rest(axes, chain))
             # a turn changes four of the nine entries of a rotation matrix
             square = square + 2 * ((turn.real - 1) ** 2 + turn.imag**2) + shift.real**2 + shift.imag**2
@@ -208,15 +206,15 @@ def residual_norm(
         lengths = [xp.sqrt(dot(end, end)) for end in ends]
         square = square + (lengths[0] - lengths[1]) ** 2
     for chain in system.sections.spherical:
-        moving = moving_rows(system, chain)
+        whole = ChainSection.of(system, axes, chain)
         end = _end(system, axes, chain, rows)
         square = square + dot(end, end)
         for column, unit in zip(axes.open_turn[chain].T, np.eye(3), strict=True):
-            left = displace(system, axes, chain, moving, rows, column[:, None], free=True) - unit[:, None]
+            left = displace(whole, rows, column[:, None], free=True) - unit[:, None]
             square = square + dot(left, left)
     return xp.sqrt(square)
 
 
 def _end(system: LoopSystem, axes: AssembledAxes, chain: int, x: FormulaCoordinates):
     """Find where a chain ends, (3, poses)."""
-    return displace(system, axes, chain, moving_rows(system, chain), x, axes.open_shift[chain, :, None])
+    return displace(ChainSection.of(system, axes, chain), x, axes.open_shift[chain, :, None])
