@@ -66,11 +66,6 @@ class Data:
     weights: tuple[Float[np.ndarray, "poses _"], ...]
     """One over the standard deviation of each number of the residuals; zero where nothing was measured."""
 
-    @property
-    def count(self) -> int:
-        """How many numbers were measured."""
-        return sum(int(np.count_nonzero(weights)) for weights in self.weights)
-
 
 def data_of(mechanism: Mechanism, measured: Any, sigma: Any, poses: int) -> Data:
     """Check measurements and their standard deviations; ValueError for what does not fit the mechanism or the drive."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -199,9 +199,8 @@ def clashes(
         row = np.full(len(motion), np.nan)
         row[closed] = np.inf
         moved = displaced(shapes[i], shapes[j], places[i][near], places[j][near])
-        row[closed[near]] = _clearances(
-            shapes[i], shapes[j], moved, slack, 0.0 if is_joined else within, is_joined, still
-        )
+        pair = _ShapePair(shapes[i], shapes[j], slack, is_joined)
+        row[closed[near]] = _clearances(pair, moved, 0.0 if is_joined else within, still)
         if is_joined or np.any(row <= within):
             pairs.append(names)
             joined.append(is_joined)
@@ -252,15 +251,27 @@ def _slack(one: ClashShape, other: ClashShape, misfits: dict, least: float) -> S
     return Slack(least, first, second, ignored)
 
 
-def _clearances(
-    one: ClashShape, other: ClashShape, moved: Displaced, slack: Slack, within: float, joined: bool, still: float
-) -> Float[np.ndarray, " poses"]:
-    """Measure the clearance of two shapes at each displacement."""
+class _ShapePair(NamedTuple):
+    """Two shapes that may clash."""
+
+    one: ClashShape
+    other: ClashShape
+    slack: Slack
+    joined: bool
+    """Whether faces of theirs are in contact by design."""
+
+
+def _clearances(pair: _ShapePair, moved: Displaced, within: float, still: float) -> Float[np.ndarray, " poses"]:
+    """Measure the clearance of two shapes at each displacement; infinite beyond `within`.
+
+    Faces that all displacements of joined shapes leave in place, to `still`, may touch.
+    """
+    one, other, slack, joined = pair
     count = len(moved.shift)
     reach = max(1.0, float(np.abs(moved.shift).max()))
     change = max(np.ptp(moved.rotation, axis=0).max(), np.ptp(moved.shift, axis=0).max() / reach)
     if count > 1 and change <= _AT_REST:
-        return np.repeat(_clearances(one, other, moved.at(np.array([0])), slack, within, joined, still), count)
+        return np.repeat(_clearances(pair, moved.at(np.array([0])), within, still), count)
     if joined and not len(crossings(one.tree, other.tree, moved.at(np.array([0])), slack).pose):
         slack = slack._replace(ignored=slack.ignored | invariant(one, other, moved, still))
     crossed = crossings(one.tree, other.tree, moved, slack)

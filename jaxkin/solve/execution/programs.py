@@ -6,7 +6,7 @@ Only the program of the displacements is differentiated. Where the numbers are k
 
 from __future__ import annotations
 
-from functools import cache, partial
+from functools import cache
 
 import jax
 import jax.numpy as jnp
@@ -32,7 +32,7 @@ from jaxkin.solve.execution.design_batches import all_designs, by_formulas_in_gr
 from jaxkin.solve.execution.known_numbers import KnownRange, Outcome, solve_numbers
 from jaxkin.solve.options import CONTINUATION, SolverOptions
 from jaxkin.solve.range.poses import RangePoses
-from jaxkin.solve.range.solve_range import displacements, find_poses
+from jaxkin.solve.range.solve_range import Shard, displacements, find_poses
 from jaxkin.solve.status import ClosureTolerance, Status
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
@@ -175,7 +175,11 @@ def _poses_of_all_designs(
 ) -> RangePoses:
     """Find poses by the general solver; under `vmap` of joints those of all designs: see `all_designs`."""
     count_trace()
-    return all_designs(partial(find_poses, system, options), _all_closed)(joints, inputs, tolerance)
+
+    def find(joints: Joints, inputs: Array, tolerance: ClosureTolerance, follow_limits: Array | bool) -> RangePoses:
+        return find_poses(system, options, joints, inputs, tolerance, Shard(follow_limits=follow_limits))
+
+    return all_designs(find, _all_closed)(joints, inputs, tolerance)
 
 
 def _all_closed(poses: RangePoses) -> Array:

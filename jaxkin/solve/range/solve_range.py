@@ -53,15 +53,30 @@ the cache while they are eliminated. A derivative of 10,000 poses of the paper's
 all poses at once; of a four-bar without formulas 6 and 10 ms."""
 
 
+class Shard(NamedTuple):
+    """Which poses of a range are to be found, by default all, and how far."""
+
+    count: int = 1
+    """Number of shards of the range, each as long."""
+    start: Int[Array, ""] | None = None
+    """Number of the first pose of the shard; None where the inputs are those of the shard alone."""
+    follow_limits: Bool[Array, ""] | bool = True
+    """Without it, poses behind a limit may be reported STALLED."""
+
+    def of(self, array: Shaped[Array, "*rows poses"]) -> Shaped[Array, "*rows shard"]:
+        """Cut the shard from an array."""
+        if self.start is None:
+            return array
+        return lax.dynamic_slice_in_dim(array, self.start, -(-array.shape[-1] // self.count), axis=-1)
+
+
 class _Range(NamedTuple):
     """A range to be solved, in radians and lengths over the characteristic length: see `find_poses`."""
 
     geometry: Geometry
     inputs: Float[Array, "driven poses"]
     tolerance: ClosureTolerance
-    shard_count: int
-    shard_start: Int[Array, ""] | None
-    follow_limits: Bool[Array, ""] | bool
+    part: Shard
 
 
 def find_poses(
@@ -70,33 +85,19 @@ def find_poses(
     joints: Joints,
     inputs: Float[Array, "driven poses"],
     tolerance: ClosureTolerance,
-    shard_count: int = 1,
-    shard_start: Int[Array, ""] | None = None,
-    follow_limits: Bool[Array, ""] | bool = True,
+    part: Shard,
 ) -> RangePoses:
-    """Find the poses of one shard of a range, for finite inputs, radians and lengths of the mechanism.
+    """Find the poses of a range, or of one shard of it, for finite inputs, radians and lengths of the mechanism.
 
-    The rows of `inputs` are in the order of `system.driven`. `inputs` is the shard (one of `shard_count`), or the whole
-    range if `shard_start` is given, which is the number of the first pose of the shard. With `follow_limits=False`,
-    poses behind a limit may be reported STALLED.
+    The rows of `inputs` are in the order of `system.driven`.
     """
     joints, inputs = lax.stop_gradient((joints, inputs))
     geometry, lengths = scaled_geometry(system, joints)
-    asked = _Range(geometry, inputs / driven(system, lengths), tolerance, shard_count, shard_start, follow_limits)
+    asked = _Range(geometry, inputs / driven(system, lengths), tolerance, part)
     poses = _by_method(system, options, asked)
     # correctors take what rounding leaves for closed, whatever tolerance was asked for
     rough = closes_before_limits(poses.status) & (poses.residual_norm > tolerance.max_residual)
     return poses._replace(status=jnp.where(rough, Status.STALLED.value, poses.status).astype(jnp.int32))
-
-
-def shard(
-    array: Shaped[Array, "*rows poses"], shard_count: int, shard_start: Int[Array, ""] | None
-) -> Shaped[Array, "*rows shard"]:
-    """Cut the shard that begins at pose `shard_start`, one of `shard_count`, from an array; all of it if that is
-    None."""
-    if shard_start is None:
-        return array
-    return lax.dynamic_slice_in_dim(array, shard_start, -(-array.shape[-1] // shard_count), axis=-1)
 
 
 def displacements(
@@ -127,7 +128,7 @@ def displacements(
 def _by_method(system: LoopSystem, options: SolverOptions, asked: _Range) -> RangePoses:
     """Find the poses by the method of the options."""
     geometry, tolerance = asked.geometry, asked.tolerance
-    inputs = shard(asked.inputs, asked.shard_count, asked.shard_start)
+    inputs = asked.part.of(asked.inputs)
     if not system.free:
         state = drive(system, assembled(system, inputs.shape[1], inputs.dtype), inputs)
         residual_norm = closure(system, geometry, state).residual_norm
@@ -150,9 +151,9 @@ def _of_one_input(system: LoopSystem, options: SolverOptions, asked: _Range) -> 
     def identity(at: Float[Array, " fronts"]) -> tuple[Array, Array]:
         return at[None], jnp.ones_like(at)[None]
 
-    problem = ContinuationProblem(system, asked.geometry, options, identity, asked.follow_limits)
+    problem = ContinuationProblem(system, asked.geometry, options, identity, asked.part.follow_limits)
     samples = trace_branch(problem, values)
-    kept = samples.complete | asked.follow_limits
+    kept = samples.complete | asked.part.follow_limits
     values = jnp.where(kept, values, 0.0)
 
     def corrected(values: Float[Array, " poses"]) -> RangePoses:
@@ -161,14 +162,14 @@ def _of_one_input(system: LoopSystem, options: SolverOptions, asked: _Range) -> 
     one_by_one = partial(in_groups, corrected, size=group_size(system))
     if len(values) < options.interpolate_from or not on_cpu():
         return _stalled_unless(kept, one_by_one(values))
-    return _stalled_unless(kept, interpolate(problem, samples, values, one_by_one, asked.shard_count))
+    return _stalled_unless(kept, interpolate(problem, samples, values, one_by_one, asked.part.count))
 
 
 def _of_several_inputs(system: LoopSystem, options: SolverOptions, asked: _Range) -> RangePoses:
     """Find the poses of several inputs along a curve through all poses; in a straight line where that fails."""
-    geometry, follow_limits = asked.geometry, asked.follow_limits
+    geometry, follow_limits = asked.geometry, asked.part.follow_limits
     at, path = curve_through(asked.inputs)
-    at, inputs = (shard(array, asked.shard_count, asked.shard_start) for array in (at, asked.inputs))
+    at, inputs = (asked.part.of(array) for array in (at, asked.inputs))
     problem = ContinuationProblem(system, geometry, options, path, follow_limits)
     samples = trace_branch(problem, at)
     kept = samples.complete | follow_limits
