@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from jaxkin._names import counted
-from jaxkin.assembly.to_mechanism import all_contacts, without_contacts
+from jaxkin.assembly.joined import all_contacts, without_contacts
 from jaxkin.contacts.contact import Contact
 from jaxkin.joints.from_contacts import UNCLEAR_MARGIN, joints_from_contacts
 from jaxkin.joints.joint import Joint
