@@ -1,4 +1,4 @@
-"""Joints and mates of the exports of CAD systems, as constraints between two parts each."""
+"""Make constraints between two parts each of the joints and mates of the exports of CAD systems."""
 
 from __future__ import annotations
 
@@ -91,6 +91,7 @@ def joints_between(
 
 
 def _unknown(kind: str) -> str:
+    """Say why a kind of joint is left out: it holds nothing, or is not known."""
     free = kind.lower().replace("-", "") in FREE
     return "it leaves all freedoms, and holds nothing" if free else "this kind is not known"
 
@@ -120,6 +121,10 @@ def mates_between(
 def _mate(
     each: ExportedMate, where: ConstrainedParts, metres: float, length: float, notes: list[str]
 ) -> Constraint | None:
+    """Find what a mate between two parts leaves free; None, and a note, where it holds nothing or is not understood.
+
+    Features that differ by less than `length`, in the unit of the assembly, count as coincident.
+    """
     text = f"{each.kind} {each.name!r}"
     parts = where.parts(each.sides[0].path, each.sides[1].path)
     if parts is None:

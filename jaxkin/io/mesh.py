@@ -1,4 +1,4 @@
-"""Solid models from meshes: parts whose faces are recovered from their triangles."""
+"""Read parts from mesh files: closed solids, whose faces are recovered from their triangles."""
 
 from __future__ import annotations
 
@@ -78,6 +78,10 @@ def _bodies(node: MeshNode, path: Path) -> list[MeshNode]:
 
 
 def _part(name: str, solid: MeshNode, source: str) -> Part:
+    """Make a part of the triangles of a node: corners welded, wound outwards, grouped into faces.
+
+    Raises ValueError for what is not closed, holds no volume, or cuts itself; `source` is the file that messages name.
+    """
     welded = weld(solid.corners, 2 * solid.tolerance)
     corners = welded.points[welded.triangles]
     notes = []
