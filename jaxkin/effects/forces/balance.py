@@ -31,9 +31,17 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin.effects.forces.balance_equations import equations, gradient_by_chords, hessian, stacked, tree_of
-from jaxkin.effects.forces.joint_balance import JointBalance, Wrenches
-from jaxkin.effects.forces.screws import Places, Scale, Twist, cross
+from jaxkin.effects.forces.balance_equations import (
+    BalancedLoops,
+    balanced_loops,
+    equations,
+    gradient_by_chords,
+    hessian,
+    stacked,
+)
+from jaxkin.effects.forces.joint_balance import JointBalance, Wrenches, joint_balances, norm_gradients, norm_hessians
+from jaxkin.effects.forces.places import Places
+from jaxkin.effects.forces.screws import Scale, Twist, cross
 from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.joints.joint import Joint, JointCoordinate
@@ -136,11 +144,11 @@ def _solve(
     loaded: dict[JointCoordinate, Float[Array, " poses"]],
 ) -> Transmitted:
     """Solve the balance for one group of poses: see `solve`."""
-    tree, poses = tree_of(linkage), found.arms[0].shape[1]
+    poses = found.arms[0].shape[1]
     free = [
         [k for k in range(each.freedoms) if (number, k) not in driven] for number, each in enumerate(linkage.joints)
     ]
-    joints = [JointBalance.of(arm, every, own) for arm, every, own in zip(found.arms, found.screws, free, strict=True)]
+    joints = joint_balances(found.arms, found.screws, free)
     none = jnp.zeros(poses)
 
     def in_free(given: dict[JointCoordinate, Array]) -> list[Float[Array, "free poses"]]:
@@ -149,35 +157,58 @@ def _solve(
 
     loads, ties = in_free(loaded), [in_free(gradients) for gradients in found.gradients]
     carried_by = tree_wrenches(linkage, acting, poses)
-    chords = len(tree.chords)
-    count = 6 * chords
-
-    def wrenches(z: Float[Array, "n poses"]) -> list[Wrenches]:
-        unknown = z[:count].reshape(chords, 6, poses)
-        return [
-            carried_by.get(number, 0.0)
-            + sum((share * unknown[c] for c, share in enumerate(shares) if share), jnp.zeros((6, poses)))
-            for number, shares in enumerate(tree.shares)
-        ]
-
-    z = jnp.zeros((count + len(ties), poses))
-    if len(z):
-        begun, system = wrenches(z), equations(tree, joints, ties, poses)
-        load = stacked([joint.scaled(own) for joint, own in zip(joints, loads, strict=True)], poses)
-        right = load - stacked([joint.scaled(joint.along(w)) for joint, w in zip(joints, begun, strict=True)], poses)
-        by_wrenches = [joint.norm_gradient(w) for joint, w in zip(joints, begun, strict=True)]
-        by_chords = column_sums(system.chords, load) - gradient_by_chords(tree, by_wrenches, poses)
-        slope = jnp.concatenate([by_chords, column_sums(system.couplings, right)])
-        z = minimise_constrained(hessian(tree, joints, system, poses), slope, system.rows, right)
-    every, held = wrenches(z), []
+    wrenches = [carried_by.get(number, jnp.zeros((6, poses))) for number in range(len(linkage.joints))]
+    strengths = [none] * len(ties)
+    for loops in balanced_loops(linkage):
+        of_joints, of_couplings = _solve_loops(loops, found.arms, joints, wrenches, loads, ties, poses)
+        for number, wrench in zip(loops.joints, of_joints, strict=True):
+            wrenches[number] = wrench
+        for number, strength in zip(loops.couplings, of_couplings, strict=True):
+            strengths[number] = strength
+    held = []
     for number, (own, joint) in enumerate(zip(free, joints, strict=True)):
-        left = joint.along(every[number]) - loads[number]
-        left = left - sum((strength * tie[number] for strength, tie in zip(z[count:], ties, strict=True)), 0.0)
+        left = joint.along(wrenches[number]) - loads[number]
+        left = left - sum((strength * tie[number] for strength, tie in zip(strengths, ties, strict=True)), 0.0)
         rows = [none] * linkage.joints[number].freedoms
         for k, column in enumerate(own):
             rows[column] = left[k]
         held.append(jnp.stack(rows) if rows else jnp.zeros((0, poses)))
-    return Transmitted(tuple(every), tuple(held), tuple(z[count:]))
+    return Transmitted(tuple(wrenches), tuple(held), tuple(strengths))
+
+
+def _solve_loops(
+    loops: BalancedLoops,
+    every_arm: Sequence[Float[Array, "3 poses"]],
+    every: Sequence[JointBalance],
+    carried: Sequence[Wrenches],
+    every_load: Sequence[Float[Array, "free poses"]],
+    every_tie: Sequence[Sequence[Float[Array, "free poses"]]],
+    poses: int,
+) -> tuple[list[Wrenches], list[Float[Array, " poses"]]]:
+    """Solve the balance of some loops for the wrenches of their joints and the forces of their couplings.
+
+    What is given is that of all joints and couplings: `carried` are the wrenches w_0.
+    """
+    joints = [every[number] for number in loops.joints]
+    begun, loads = ([given[number] for number in loops.joints] for given in (carried, every_load))
+    ties = [[every_tie[coupling][number] for number in loops.joints] for coupling in loops.couplings]
+    if not (loops.chords or ties):
+        return begun, []
+    system = equations(loops, joints, ties, poses)
+    load = stacked([joint.scaled(own) for joint, own in zip(joints, loads, strict=True)], poses)
+    right = load - stacked([joint.scaled(joint.along(w)) for joint, w in zip(joints, begun, strict=True)], poses)
+    arms = jnp.stack([every_arm[number] for number in loops.joints], axis=1)
+    by_wrenches = norm_gradients(arms, jnp.stack(begun, axis=1))
+    by_chords = column_sums(system.chords, load) - gradient_by_chords(loops, by_wrenches)
+    slope = jnp.concatenate([by_chords, column_sums(system.couplings, right)])
+    z = minimise_constrained(hessian(loops, norm_hessians(arms), system), slope, system.rows, right)
+    count = 6 * len(loops.chords)
+    unknown = z[:count].reshape(len(loops.chords), 6, poses)
+    found = [
+        w + sum((share * unknown[c] for c, share in enumerate(shares) if share), jnp.zeros((6, poses)))
+        for w, shares in zip(begun, loops.shares, strict=True)
+    ]
+    return found, list(z[count:])
 
 
 def tree_wrenches(linkage: Linkage, acting: dict[str, Any], poses: int) -> dict[int, Wrenches]:

@@ -12,40 +12,48 @@ from typing import NamedTuple
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from jaxkin.effects.forces.joint_balance import JointBalance, Wrenches
+from jaxkin.effects.forces.joint_balance import JointBalance
 from jaxkin.linkage.linkage import Linkage
 
 
-class Tree(NamedTuple):
-    """The spanning tree of joints that places the parts, and its chords (static): see `tree_of`."""
+class BalancedLoops(NamedTuple):
+    """Loops whose wrenches are found together, since they have joints or couplings in common (static)."""
 
+    joints: tuple[int, ...]
+    """All joints that the loops pass or couplings tie, by number."""
     chords: tuple[int, ...]
-    """The joints that are not in the tree."""
+    """Those of them that are not in the tree which places the parts, one a loop."""
     shares: tuple[tuple[int, ...], ...]
-    """For each joint and chord the sign with which the wrench of the chord is part of that of the joint: -1, 0 or 1."""
+    """For each of `joints` and each chord the sign with which the wrench of the chord is part of that of the joint: -1,
+    0 or 1."""
+    couplings: tuple[int, ...]
+    """Numbers of the couplings between the joints."""
 
 
-def tree_of(linkage: Linkage) -> Tree:
-    """Find the chords of the tree that places the parts, and through which joints their wrenches go."""
+def balanced_loops(linkage: Linkage) -> tuple[BalancedLoops, ...]:
+    """Find through which joints the wrenches of the chords go, for each loop group by itself."""
     inside = {joint: (part, sign) for part, _, joint, sign in linkage.structure.tree}
     parent = {part: before for part, before, _, _ in linkage.structure.tree}
-    chords = tuple(number for number in range(len(linkage.joints)) if number not in inside)
 
     def ancestry(part: str) -> set[str]:
         return {part, *(ancestry(parent[part]) if part in parent else ())}
 
-    shares = []
-    for number in range(len(linkage.joints)):
+    def share(number: int, chord: int) -> int:
         if number not in inside:
-            shares.append(tuple(int(number == chord) for chord in chords))
-            continue
+            return int(number == chord)
         child, sign = inside[number]
-        own = []
-        for chord in chords:
-            one, other = (child in ancestry(part) for part in linkage.joints[chord].parts)
-            own.append(-sign * (int(other) - int(one)))
-        shares.append(tuple(own))
-    return Tree(chords, tuple(shares))
+        one, other = (child in ancestry(part) for part in linkage.joints[chord].parts)
+        return -sign * (int(other) - int(one))
+
+    found = []
+    for each in linkage.structure.loop_groups:
+        chords = tuple(number for number in each.joints if number not in inside)
+        shares = tuple(tuple(share(number, chord) for chord in chords) for number in each.joints)
+        found.append(BalancedLoops(each.joints, chords, shares, each.couplings))
+    # a joint between two fixed parts is in no loop, and places nothing
+    grouped = {number for each in found for number in each.joints}
+    alone = [number for number in range(len(linkage.joints)) if number not in inside and number not in grouped]
+    return *found, *(BalancedLoops((number,), (number,), ((1,),), ()) for number in alone)
 
 
 class Equations(NamedTuple):
@@ -62,10 +70,12 @@ class Equations(NamedTuple):
         return jnp.concatenate([self.chords, self.couplings], axis=1)
 
 
-def equations(tree: Tree, joints: Sequence[JointBalance], ties: Sequence[Sequence[Array]], poses: int) -> Equations:
+def equations(
+    loops: BalancedLoops, joints: Sequence[JointBalance], ties: Sequence[Sequence[Array]], poses: int
+) -> Equations:
     """Collect the equations T S^T w = T (t + g f) of all joints; `ties` are the gradients g of couplings, by joint."""
-    by_chords, by_couplings = [jnp.zeros((0, 6 * len(tree.chords), poses))], [jnp.zeros((0, len(ties), poses))]
-    for number, (joint, shares) in enumerate(zip(joints, tree.shares, strict=True)):
+    by_chords, by_couplings = [jnp.zeros((0, 6 * len(loops.chords), poses))], [jnp.zeros((0, len(ties), poses))]
+    for number, (joint, shares) in enumerate(zip(joints, loops.shares, strict=True)):
         screws = joint.scaled(joint.screws)
         by_chords.append(jnp.concatenate([screws[:, :0], *(share * screws for share in shares)], axis=1))
         gradients = [joint.scaled(tie[number])[:, None] for tie in ties]
@@ -73,26 +83,25 @@ def equations(tree: Tree, joints: Sequence[JointBalance], ties: Sequence[Sequenc
     return Equations(jnp.concatenate(by_chords), jnp.concatenate(by_couplings))
 
 
-def _hessian_by_chords(tree: Tree, each: Sequence[Array], poses: int) -> Float[Array, "wrenches wrenches poses"]:
+def _signed_sum(signs: Sequence[int], each: Float[Array, "*rows joints poses"]) -> Float[Array, "*rows poses"]:
+    """Add up what belongs to each joint with its sign: -1, 0 or 1."""
+    terms = (sign * each[..., joint, :] for joint, sign in enumerate(signs) if sign)
+    return sum(terms, jnp.zeros_like(each[..., 0, :]))
+
+
+def _hessian_by_chords(
+    loops: BalancedLoops, each: Float[Array, "6 6 joints poses"]
+) -> Float[Array, "wrenches wrenches poses"]:
     """Compute a Hessian by the wrenches of the chords from those by the wrench of each joint, by the chain rule."""
-    chords, none = len(tree.chords), jnp.zeros((6, 6, poses))
-    rows = [
-        [
-            sum((own[a] * own[b] * x for own, x in zip(tree.shares, each, strict=True) if own[a] * own[b]), none)
-            for b in range(chords)
-        ]
-        for a in range(chords)
-    ]
-    return jnp.concatenate([jnp.concatenate(row, axis=1) for row in rows]) if rows else jnp.zeros((0, 0, poses))
+    chords = range(len(loops.chords))
+    rows = [[_signed_sum([own[a] * own[b] for own in loops.shares], each) for b in chords] for a in chords]
+    return jnp.concatenate([jnp.concatenate(row, axis=1) for row in rows]) if rows else each[:0, :0, 0]
 
 
-def gradient_by_chords(tree: Tree, each: Sequence[Wrenches], poses: int) -> Float[Array, "wrenches poses"]:
+def gradient_by_chords(loops: BalancedLoops, each: Float[Array, "6 joints poses"]) -> Float[Array, "wrenches poses"]:
     """Compute a gradient by the wrenches of the chords from those by the wrench of each joint, by the chain rule."""
-    rows = [
-        sum((own[c] * x for own, x in zip(tree.shares, each, strict=True) if own[c]), jnp.zeros((6, poses)))
-        for c in range(len(tree.chords))
-    ]
-    return jnp.concatenate(rows) if rows else jnp.zeros((0, poses))
+    rows = [_signed_sum([own[c] for own in loops.shares], each) for c in range(len(loops.chords))]
+    return jnp.concatenate(rows) if rows else each[:0, 0]
 
 
 def stacked(rows: Sequence[Float[Array, "_ poses"]], poses: int) -> Float[Array, "_ poses"]:
@@ -100,9 +109,14 @@ def stacked(rows: Sequence[Float[Array, "_ poses"]], poses: int) -> Float[Array,
     return jnp.concatenate([jnp.zeros((0, poses)), *rows])
 
 
-def hessian(tree: Tree, joints: Sequence[JointBalance], found: Equations, poses: int) -> Float[Array, "n n poses"]:
-    """Compute the Hessian, by x and f, of what is minimised: see the docstring of `jaxkin.effects.forces.balance`."""
-    by_chords = _hessian_by_chords(tree, [joint.norm_hessian() for joint in joints], poses)
+def hessian(
+    loops: BalancedLoops, by_wrenches: Float[Array, "6 6 joints poses"], found: Equations
+) -> Float[Array, "n n poses"]:
+    """Compute the Hessian, by x and f, of what is minimised: see the docstring of `jaxkin.effects.forces.balance`.
+
+    `by_wrenches` are those of |w|^2 / 2 by the wrench of each joint.
+    """
+    by_chords = _hessian_by_chords(loops, by_wrenches)
     count = found.couplings.shape[1]
     if not count:
         return by_chords

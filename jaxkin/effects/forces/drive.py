@@ -29,10 +29,10 @@ from jaxkin.effects.forces.changes import ORDER, Changes, by_joint, changes
 from jaxkin.effects.forces.friction import with_friction
 from jaxkin.effects.forces.friction_result import Friction
 from jaxkin.effects.forces.given import Applied
+from jaxkin.effects.forces.joint_screws import coordinates_of_motions
 from jaxkin.effects.forces.masses import Masses
 from jaxkin.effects.forces.pose_groups import by_groups
 from jaxkin.effects.forces.potential import CarriedWeights, potential, weights_along_tree
-from jaxkin.effects.forces.screws import coordinates_of_motions
 from jaxkin.effects.forces.wrenches import Loads, MovingParts, Wrench, acting_on, loads, metres_of, units_of
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.units import METRES
@@ -143,13 +143,14 @@ def drive_forces(
     """
     acting = Acting(masses, gravity, applied, rates, accelerations)
     check(motion, acting)
-    mechanism, (drive, known) = motion.mechanism, known_motion(motion)
+    drive, known = known_motion(motion)
     speeds = given_rates(motion, acting)
-    linkage, numbers = mechanism.linkage, acting_numbers(acting)
+    linkage, numbers = motion.mechanism.linkage, acting_numbers(acting)
     if speeds is None:  # without friction, which `check` refuses at rest
         of_parts = None if numbers.masses is None else weights_along_tree(linkage, numbers.masses)
         others = numbers._replace(masses=None)
-        return DriveForces(motion, *_at_rest(drive, linkage, known, motion.inputs, others, of_parts))
+        found = changes(drive, known, motion.inputs, None) if len(drive.loop_groups) > 1 else None
+        return DriveForces(motion, *_at_rest(drive, linkage, known, motion.inputs, others, of_parts, found))
     found = changes(drive, known, motion.inputs, speeds)
     frictions = loads_and_frictions(acting)[1]
     if not frictions:
@@ -170,20 +171,22 @@ def _at_rest(
     inputs: Inputs,
     acting: ActingNumbers,
     of_parts: CarriedWeights | None,
+    found: Changes | None,
 ) -> tuple[Inputs, Inputs]:
     """Compute force and power of each driven coordinate at rest, in one program, by groups of poses.
 
-    The force of the weights `of_parts` is the derivative of their potential energy. The loads `acting`, without masses,
-    are placed in each pose. Derivatives by the drive stay in the cache: 10,000 poses of a four-bar take 1.1 ms of a
-    processor by groups, and 1.6 at once. In motion one program takes longer than three, by groups as well: 5.7 ms and
-    4.5.
+    The force of the weights `of_parts` is the derivative of their potential energy; the loads `acting` are placed in
+    each pose. Derivatives by the drive, unless they are `found`, stay in the cache.
     """
 
-    def of_group(given: tuple[JointDisplacements, Int[Array, " poses"], Inputs], acting: ActingNumbers) -> Inputs:
-        displacements, status, inputs = given
-        own = known._replace(displacements=displacements, status=status)
-        # without the barrier XLA computes derivatives anew wherever they are used
-        found = lax.optimization_barrier(changes(drive, own, inputs, None))
+    def of_group(
+        given: tuple[JointDisplacements, Int[Array, " poses"], Inputs, Changes | None], acting: ActingNumbers
+    ) -> Inputs:
+        displacements, status, inputs, found = given
+        if found is None:
+            own = known._replace(displacements=displacements, status=status)
+            # else XLA computes derivatives anew wherever they are used
+            found = lax.optimization_barrier(changes(drive, own, inputs, None))
         forces: Inputs = dict.fromkeys(found.along, jnp.zeros(len(status)))
         if acting.applied:
             moving, all_loads = acting_on(drive.unit, False, linkage, found, acting)
@@ -195,7 +198,7 @@ def _at_rest(
                 forces[name] = forces[name] + metre * slopes[name]
         return forces
 
-    forces = by_groups(of_group, (known.displacements, known.status, inputs), acting)
+    forces = by_groups(of_group, (known.displacements, known.status, inputs, found), acting)
     closed = is_closed_on_branch(known.status)
     powers: Inputs = dict.fromkeys(forces, jnp.where(closed, 0.0, jnp.nan))
     return {name: jnp.where(closed, force, jnp.nan) for name, force in forces.items()}, powers

@@ -33,7 +33,8 @@ from jaxkin.effects.forces.balance import balance, solve
 from jaxkin.effects.forces.friction_of import FRICTION_OF
 from jaxkin.effects.forces.friction_result import Friction
 from jaxkin.effects.forces.given import JointFriction
-from jaxkin.effects.forces.screws import Twist, cross, relative_twist, velocity_at
+from jaxkin.effects.forces.places import relative_twist
+from jaxkin.effects.forces.screws import Twist, cross, velocity_at
 from jaxkin.effects.forces.wrenches import Loads, MovingParts
 from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.geometry.units import METRES

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
+import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
@@ -19,24 +20,12 @@ Wrenches = Float[Array, "6 poses"]
 
 
 class JointBalance(NamedTuple):
-    """A joint in each pose: the norm of its wrenches, and what it lets through, about the middle of the mechanism."""
+    """What a joint lets through in each pose, about the middle of the mechanism."""
 
-    arm: Float[Array, "3 poses"]
     screws: Float[Array, "free 6 poses"]
     """S^T: unit twists of its free coordinates."""
     made_by: Float[Array, "free free poses"]
     """T, which makes them orthonormal at the point of the joint: T S^T = U^T."""
-
-    @staticmethod
-    def of(arm: Float[Array, "3 poses"], every: Sequence[Twist], free: Sequence[int]) -> JointBalance:
-        """Select the `free` ones of the unit twists of all coordinates of a joint, whose point is at `arm`."""
-        poses = arm.shape[1]
-        if not free:
-            return JointBalance(arm, jnp.zeros((0, 6, poses)), jnp.zeros((0, 0, poses)))
-        screws = jnp.stack([every[k] for k in free])
-        # the norm is taken at the point of the joint
-        rows = jnp.stack([jnp.concatenate([s[:3], velocity_at(s, arm)]) for s in screws])
-        return JointBalance(arm, screws, orthonormal_rows(rows).made_by)
 
     def along(self, wrench: Wrenches) -> Float[Array, "free poses"]:
         """Compute S^T w, the loads along the freedoms."""
@@ -47,22 +36,43 @@ class JointBalance(NamedTuple):
         made_by = self.made_by if rows.ndim == 2 else self.made_by[:, :, None]
         return jnp.sum(made_by * rows[None], axis=1)
 
-    def at_point(self, wrench: Wrenches) -> Wrenches:
-        """Refer a wrench to the point of the joint."""
-        return jnp.concatenate([wrench[:3] - cross(self.arm, wrench[3:]), wrench[3:]])
 
-    def norm_gradient(self, wrench: Wrenches) -> Wrenches:
-        """Differentiate |w|^2 / 2 with respect to the wrench w, the norm taken at the point of the joint."""
-        own = self.at_point(wrench)
-        return jnp.concatenate([own[:3], own[3:] + cross(self.arm, own[:3])])
+def joint_balances(
+    arms: Sequence[Float[Array, "3 poses"]], every: Sequence[Sequence[Twist]], free: Sequence[Sequence[int]]
+) -> list[JointBalance]:
+    """Select for each joint, whose point is at an arm, the `free` ones of the unit twists of all its coordinates."""
+    poses = arms[0].shape[1]
+    found = [JointBalance(jnp.zeros((0, 6, poses)), jnp.zeros((0, 0, poses))) for _ in arms]
+    counts = [len(own) for own in free]
+    for count in sorted({*counts} - {0}):
+        # at once: one by one, their operations are a long program
+        alike = [number for number, own in enumerate(counts) if own == count]
+        screws = jnp.stack([jnp.stack([every[number][k] for k in free[number]], axis=1) for number in alike], axis=2)
+        arm = jnp.stack([arms[number] for number in alike], axis=1)
+        # the norm is taken at the point of the joint
+        rows = jnp.concatenate([screws[:3], velocity_at(screws, arm[:, None])])
+        made_by = jax.vmap(lambda one: orthonormal_rows(one).made_by)(jnp.moveaxis(rows, (2, 1), (0, 1)))
+        for place, number in enumerate(alike):
+            found[number] = JointBalance(screws[:, :, place].swapaxes(0, 1), made_by[place])
+    return found
 
-    def norm_hessian(self) -> Float[Array, "6 6 poses"]:
-        """Differentiate |w|^2 / 2 twice with respect to the wrench w, the norm taken at the point of the joint."""
-        x, y, z = self.arm
-        none = jnp.zeros_like(x)
-        lever = jnp.stack([none, -z, y, z, none, -x, -y, x, none]).reshape(3, 3, -1)
-        eye = jnp.broadcast_to(jnp.eye(3)[..., None], lever.shape)
-        outer = (1 + jnp.sum(self.arm**2, axis=0)) * eye - self.arm[:, None] * self.arm[None]
-        return jnp.concatenate(
-            [jnp.concatenate([eye, -lever], axis=1), jnp.concatenate([lever, outer], axis=1)], axis=0
-        )
+
+def at_points(arms: Float[Array, "3 joints poses"], wrenches: Float[Array, "6 joints poses"]) -> Array:
+    """Refer the wrenches of joints to their points."""
+    return jnp.concatenate([wrenches[:3] - cross(arms, wrenches[3:]), wrenches[3:]])
+
+
+def norm_gradients(arms: Float[Array, "3 joints poses"], wrenches: Float[Array, "6 joints poses"]) -> Array:
+    """Differentiate |w|^2 / 2 with respect to the wrench w of each joint, the norm taken at its point."""
+    own = at_points(arms, wrenches)
+    return jnp.concatenate([own[:3], own[3:] + cross(arms, own[:3])])
+
+
+def norm_hessians(arms: Float[Array, "3 joints poses"]) -> Float[Array, "6 6 joints poses"]:
+    """Differentiate |w|^2 / 2 twice with respect to the wrench w of each joint, the norm taken at its point."""
+    x, y, z = arms
+    none = jnp.zeros_like(x)
+    lever = jnp.stack([none, -z, y, z, none, -x, -y, x, none]).reshape(3, 3, *x.shape)
+    eye = jnp.broadcast_to(jnp.eye(3)[..., None, None], lever.shape)
+    outer = (1 + jnp.sum(arms**2, axis=0)) * eye - arms[:, None] * arms[None]
+    return jnp.concatenate([jnp.concatenate([eye, -lever], axis=1), jnp.concatenate([lever, outer], axis=1)])

@@ -188,7 +188,10 @@ def reactions(
     drive, known = known_motion(motion)
     speeds = given_rates(motion, acting)
     # at rest nothing is differentiated
-    found = unmoved(drive, known, motion.inputs) if speeds is None else changes(drive, known, motion.inputs, speeds)
+    if speeds is None:
+        found = unmoved(drive, known, motion.inputs)
+    else:
+        found = changes(drive, known, motion.inputs, speeds, along=False)
     linkage, numbers, result = mechanism.linkage, acting_numbers(acting), None
     if frictions := loads_and_frictions(acting)[1]:
         moving, all_loads = acting_on(drive.unit, True, linkage, found, numbers)

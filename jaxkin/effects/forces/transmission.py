@@ -14,8 +14,9 @@ from jaxkin._arguments import check_motion
 from jaxkin._names import listed, nearest
 from jaxkin.effects.forces.drive import drive_forces
 from jaxkin.effects.forces.given import joint_load
+from jaxkin.effects.forces.places import places
 from jaxkin.effects.forces.reactions import reactions
-from jaxkin.effects.forces.screws import places, velocity_at
+from jaxkin.effects.forces.screws import velocity_at
 from jaxkin.effects.forces.wrenches import nan_unless_closed
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.effects.rates import velocities

@@ -11,7 +11,7 @@ from jaxtyping import Float
 
 from jaxkin._traced import traced
 from jaxkin.effects.forces.balance import Balance, balance
-from jaxkin.effects.forces.screws import places
+from jaxkin.effects.forces.places import places
 from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.joint_motion import JointDisplacements
 from jaxkin.linkage.linkage import Linkage

@@ -9,15 +9,20 @@ from __future__ import annotations
 from functools import partial
 from typing import Any, NamedTuple
 
+import jax
 import jax.numpy as jnp
+import numpy as np
+from jax import lax
 from jaxtyping import Array, Float
 
 from jaxkin.effects.forces.acting import ActingNumbers, loaded_coordinate
 from jaxkin.effects.forces.changes import ByCoordinate, Changes
 from jaxkin.effects.forces.given import Force, JointLoad, Spring, Torque
 from jaxkin.effects.forces.masses import Masses
-from jaxkin.effects.forces.screws import Places, Twist, cross, places, turned, twists_of_parts, velocity_at, wrench_at
+from jaxkin.effects.forces.places import Places, places, twists_of_parts
+from jaxkin.effects.forces.screws import Scale, Twist, cross, turned, velocity_at, wrench_at
 from jaxkin.geometry.movements import is_length
+from jaxkin.geometry.rigid import Rigid
 from jaxkin.geometry.units import METRES
 from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.joint_motion import JointDisplacements
@@ -86,8 +91,7 @@ def loads(linkage: Linkage, unit: str, acting: ActingNumbers, moving: MovingPart
     found: dict[str, Any] = {}
     lever = moving.at.scale.size * METRES[unit]
     if acting.masses is not None:
-        for part in moving.at.parts:
-            found[part] = _of_mass(moving, acting.masses, acting.gravity, part, lever)
+        found |= _of_masses(moving, acting.masses, acting.gravity, lever)
     in_joints: dict[JointCoordinate, Array] = {}
     for each in acting.applied:
         if isinstance(each, JointLoad):
@@ -100,17 +104,43 @@ def loads(linkage: Linkage, unit: str, acting: ActingNumbers, moving: MovingPart
     return Loads(found, in_joints, {})
 
 
-def _of_mass(moving: MovingParts, masses: Masses, gravity: Any, part: str, lever: Any) -> Wrench:
-    """Compute weight and inertia of a part: the force m (g - a) at its centre, the torque -(I w' + w x I w)."""
-    number = masses.parts.index(part)
-    mass, arm = masses.mass[number], moving.at.point(part, masses.centre[number])
+def _of_masses(moving: MovingParts, masses: Masses, gravity: Any, lever: Any) -> dict[str, Wrench]:
+    """Compute weight and inertia of all parts that move, at once: one by one, their operations are a long program."""
+    parts = list(moving.at.parts)
+    if not parts:
+        return {}
+    numbers = np.array([masses.parts.index(part) for part in parts])
+    displaced = jnp.stack([moving.at.parts[part] for part in parts])
+    own = tuple(jnp.asarray(each, float)[numbers] for each in (masses.mass, masses.centre, masses.inertia))
+    twists = [jnp.stack([rows[part] for part in parts]) for rows in (moving.twists, moving.changes) if rows]
+    of_mass = partial(_of_mass, moving.at.scale, gravity, lever)
+    # found once: XLA would find all of it anew wherever it is used
+    found = lax.optimization_barrier(jax.vmap(of_mass)(displaced, *own, *twists))
+    return {part: found[place] for place, part in enumerate(parts)}
+
+
+def _of_mass(
+    scale: Scale,
+    gravity: Any,
+    lever: Any,
+    displaced: Rigid,
+    mass: Float[Array, ""],
+    centre: Float[Array, "3"],
+    inertia: Float[Array, "3 3"],
+    twist: Twist | None = None,
+    change: Twist | None = None,
+) -> Wrench:
+    """Compute weight and inertia of a part: the force m (g - a) at its centre, the torque -(I w' + w x I w).
+
+    `displaced` is the part in each pose; without its `twist` and the derivative of that it is at rest.
+    """
+    arm = scale.arm(turned(displaced, centre) + displaced[:, 3])
     force = mass * gravity[:, None]
-    if part not in moving.twists:
+    if twist is None or change is None:
         return wrench_at(arm, force)
-    twist, change = moving.twists[part], moving.changes[part]
     turning = twist[:3]
     acceleration = velocity_at(change, arm) + cross(turning, velocity_at(twist, arm))
-    rotation, inertia = moving.at.parts[part][:, :3], masses.inertia[number]
+    rotation = displaced[:, :3]
 
     def times_inertia(vector: Float[Array, "3 poses"]) -> Float[Array, "3 poses"]:
         """Multiply a vector by R I R^T."""

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 import jaxkin as jk
-from jaxkin.effects.forces.screws import Scale, joint_motions, places, twists_of_parts
+from jaxkin.effects.forces.joint_screws import carried, chains
+from jaxkin.effects.forces.places import places, twists_of_parts
+from jaxkin.effects.forces.screws import Scale
 from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.geometry.pose import frame
 from jaxkin.joints.joint import joint
@@ -31,8 +33,9 @@ def test_unit_twists_are_those_of_the_chain(movements):
     q = numbers.normal(size=made.freedoms)
     reached, expected = chain(movements, made.frames_1, q, 5.0)
     scale = Scale(jnp.asarray(SIZE), jnp.asarray(MIDDLE))
-    found, part_2 = joint_motions(made, jnp.asarray(q)[None], jnp.eye(4)[:3, :, None], scale)
-    np.testing.assert_allclose(part_2[..., 0], reached[:3], atol=1e-12)
+    (own,) = chains([made], [jnp.asarray(q)[None]], scale)
+    (found,) = carried([made], [own], [jnp.eye(4)[:3, :, None]], scale)
+    np.testing.assert_allclose(own.displacement[..., 0], reached[:3], atol=1e-12)
     np.testing.assert_allclose(found.point[:, 0], ((reached @ frames[-1])[:3, 3] - MIDDLE) / SIZE, atol=1e-12)
     velocity = (expected[3:] + np.cross(expected[:3], MIDDLE, axisa=0, axisc=0)) / SIZE
     units = np.array([SIZE if is_length(name) else 1.0 for name in made.coordinates])
