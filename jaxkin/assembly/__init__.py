@@ -5,7 +5,7 @@ The route is told on the page "Architecture". What the modules do on it:
 | step | modules |
 |---|---|
 | what the user holds, and asks for | `assembly`, `ignored_contacts` |
-| contacts, inferences and joints by hand become a mechanism | `to_mechanism` |
+| contacts, inferences and joints by hand become a mechanism | `to_mechanism`, `joined` |
 | what the file itself says of its joints | `exported`, `close_export`, `from_export`, `subassemblies` |
 | what solids imply beside exact contacts | `inference`, tried by `with_inferences` and `dropped_inference` |
 | bodies that are held to each other, where all else moves as before | `seats`, `guides`, `resting`, `lids` |

@@ -15,12 +15,12 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from jaxkin._names import counted
-from jaxkin.assembly.to_mechanism import all_contacts, without_contacts
+from jaxkin.assembly.joined import all_contacts, without_contacts
 from jaxkin.contacts.contact import Contact
 from jaxkin.joints.from_contacts import UNCLEAR_MARGIN, joints_from_contacts
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
-from jaxkin.mobility.twists import Twists, middle, twists
+from jaxkin.mobility.twists import TwistConstraints, middle, twists
 from jaxkin.topology.bodies import bodies
 
 if TYPE_CHECKING:
@@ -109,7 +109,7 @@ class _ContactJudgement(NamedTuple):
     """For each joint its contact, or the name of a joint by hand."""
     body_of: Mapping[str, str]
     """For each part the first part of its body."""
-    system: Twists
+    system: TwistConstraints
     resting: frozenset[str]
     """Parts that only spin."""
     size: float

@@ -104,12 +104,14 @@ def _proposed(
     return None
 
 
-Tie = dict[str, float]
+CarrierTurns = dict[str, float]
 """Turns by which one carrier turns against the other about the axis of a wheel: factors by coordinate, of wheel 1 and
 of wheel 2; empty where both wheels are on one carrier."""
 
 
-def _ties(turn_1: Turn, turn_2: Turn, turns: Mapping[str, list[Turn]], near: float) -> Iterator[tuple[Tie, Tie]]:
+def _ties(
+    turn_1: Turn, turn_2: Turn, turns: Mapping[str, list[Turn]], near: float
+) -> Iterator[tuple[CarrierTurns, CarrierTurns]]:
     """Find how the carriers of two wheels are connected, such that one of them carries both axes."""
     if turn_1.carrier == turn_2.carrier:
         yield {}, {}
@@ -130,7 +132,9 @@ def _same_line(one: Turn, other: Turn, near: float) -> float:
     return float(np.sign(one.axis @ other.axis))
 
 
-def _coupling(turn_1: Turn, turn_2: Turn, tie: tuple[Tie, Tie], n_1: float | int, n_2: float | int) -> Coupling:
+def _coupling(
+    turn_1: Turn, turn_2: Turn, tie: tuple[CarrierTurns, CarrierTurns], n_1: float | int, n_2: float | int
+) -> Coupling:
     """Write that both wheels pass as many teeth, `n_1 w_1 = n_2 w_2` with turns against the body that carries both."""
     if tie == ({}, {}):
         return gear(turn_1.coordinate, turn_2.coordinate, n_1 / n_2)

@@ -20,7 +20,7 @@ from jaxkin.joints.combine import LOWER_PAIRS
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.screws import chain, complement, freedoms
 from jaxkin.linkage.linkage import SpinningPart
-from jaxkin.mobility.twists import Twists, middle, twists
+from jaxkin.mobility.twists import TwistConstraints, middle, twists
 from jaxkin.topology.components import connected
 from jaxkin.topology.structure import LoopGroup
 
@@ -82,7 +82,7 @@ class _SpinCandidates(NamedTuple):
     """The motion of each candidate while all other parts rest."""
     joints: Sequence[Joint]
     """The joints of the loop group."""
-    system: Twists
+    system: TwistConstraints
     """The constraints of these joints on the twists of all bodies of the loop group but one, which rests."""
     row_of: Mapping[str, str]
     """For each part the name of its body in `system`; all fixed parts are one body."""

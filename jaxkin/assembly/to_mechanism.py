@@ -11,47 +11,27 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from jaxkin._names import counted, free_name
-from jaxkin.assembly.at_rest import left_at_rest
 from jaxkin.assembly.ignored_contacts import Entry, without
 from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.joined import WithoutContacts, finished, joined
 from jaxkin.assembly.near_misses import not_accounted_for
-from jaxkin.assembly.needless import with_spinning
 from jaxkin.contacts.contact import Contact, Contacts
-from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import frame
 from jaxkin.joints.combine import LOWER_PAIRS
 from jaxkin.joints.evidence import BY_HAND, Bond, EvidenceKind
 from jaxkin.joints.file_noise import noise_of
-from jaxkin.joints.from_contacts import FoundJoints, joints_from_contacts
 from jaxkin.joints.joint import Joint, joint
 from jaxkin.joints.kinds import JointKind
-from jaxkin.joints.regularise import Noise
-from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.mechanism import Mechanism
-from jaxkin.mobility.alignment import SIX_DIGITS, aligned, asked_noise
 from jaxkin.topology.bodies import bodies
 from jaxkin.topology.checks import check_names
 from jaxkin.topology.components import connected
-from jaxkin.topology.structure import structure
 
 if TYPE_CHECKING:
     from jaxkin.assembly.assembly import Assembly
 
-ROUNDED = 1e-12
-"""Radians, and lengths over the size of the assembly: what is aligned by less is rounding, and is not told."""
 _LISTED = 8
 """Names, or near misses, that a message lists at most."""
-
-
-class _WithoutContacts(NamedTuple):
-    """What a mechanism is made of beside its contacts."""
-
-    joints: tuple[Joint, ...]
-    """Those by hand, and the ties of rigid groups."""
-    parts: tuple[str, ...]
-    fixed: tuple[str, ...]
-    unit: str
-    solids: tuple[Part, ...]
 
 
 class MechanismOptions(NamedTuple):
@@ -125,8 +105,13 @@ def make_mechanism(
     own = {_pair(given.parts, body): given.name for given in options.joints}
     replaced = [contact for contact in moving if _pair(contact.parts, body) in by_hand]
     kept = [contact for contact in moving if _pair(contact.parts, body) not in by_hand]
-    base = _WithoutContacts((*joints, *ties), names, tuple(fixed), assembly.unit, assembly.parts)
-    mechanism = _with_contacts(base, kept, body, noise_of(assembly.parts, moving), combine, align)
+    noise = noise_of(assembly.parts, moving)
+    linkage, notes, found = joined(
+        WithoutContacts((*joints, *ties), names, tuple(fixed), assembly.unit), kept, body, noise, combine
+    )
+    mechanism = finished(
+        Mechanism(linkage, assembly.unit, assembly.parts, notes, contacts=found), noise, combine, align
+    )
     told = (*_left_out_notes(len(contacts) - len(used), replaced, own, body), *inference_notes(inferences, system))
     told = (*told, *_detection_notes(contacts, mechanism))
     bonds = (
@@ -146,47 +131,6 @@ def inference_notes(inferences: Sequence[Inference], system: str = "CAD system")
     counts = ", ".join(f"{count} {kind}" for kind, count in said.most_common())
     others = [str(each) for each in inferences if each.evidence.kind is not EvidenceKind.EXPORT]
     return [f"joints and bodies as the {system} has them: {counts}", *others] if said else others
-
-
-def all_contacts(mechanism: Mechanism) -> tuple[Contact, ...]:
-    """List the contacts that a mechanism was found from, those of parts at rest too."""
-    return (*(each for some in mechanism.contacts.values() for each in some), *mechanism.contacts_at_rest)
-
-
-def without_contacts(mechanism: Mechanism, left_out: Collection[Contact | str]) -> Mechanism:
-    """Make the mechanism from the same solids without some contacts, or joints by hand by their names.
-
-    Raises ValueError where that leaves a part that hangs on nothing.
-    """
-    every = all_contacts(mechanism)
-    by_hand = [each for each in mechanism.all_joints if each.name not in mechanism.contacts]
-    body = bodies(mechanism.parts, mechanism.fixed, [each.parts for each in by_hand if each.kind == JointKind.FIXED])
-    given = tuple(each for each in by_hand if each.name not in left_out)
-    base = _WithoutContacts(given, mechanism.parts, mechanism.fixed, mechanism.unit, mechanism.solids)
-    contacts = [each for each in every if each not in left_out]
-    return _with_contacts(base, contacts, body, noise_of(mechanism.solids, every), combine=True, align=None)
-
-
-def _with_contacts(
-    base: _WithoutContacts,
-    contacts: Sequence[Contact],
-    body: Mapping[str, str],
-    noise: Noise,
-    combine: bool,
-    align: float | int | None,
-) -> Mechanism:
-    """Join parts by some joints and by contacts, all free of noise, and leave at rest what only spins."""
-    parts, fixed = base.parts, base.fixed
-    found = joints_from_contacts(contacts, parts, combine, noise, body, base.joints)
-    structured = structure(parts, [(each.name, *each.parts) for each in found.joints], fixed)
-    notes = (*found.notes, *_alignment_notes(found, base.unit, noise.size))
-    linkage = Linkage.of(found.joints, structured)
-    mechanism = Mechanism(linkage, base.unit, base.solids, notes, contacts=found.contacts)
-    if combine:
-        mechanism = left_at_rest(mechanism)
-    most = max(SIX_DIGITS, noise.angle) if align is None else asked_noise(align)
-    linkage, alignment = aligned(mechanism.linkage, most, base.unit)
-    return with_spinning(replace(mechanism, linkage=linkage, alignment=alignment))
 
 
 def _pair(parts: tuple[str, str], body: Mapping[str, str]) -> frozenset[str]:
@@ -227,17 +171,6 @@ def _left_out_notes(ignored: int, replaced: Sequence[Contact], by_hand: Mapping,
             what = "contact" if len(states) == 1 else f"{len(states)} contacts"
             notes.append(f"joint {name!r}, given by hand, replaces the {what} {', '.join(states)} between its parts")
     return notes
-
-
-def _alignment_notes(found: FoundJoints, unit: str, size: float) -> list[str]:
-    """Tell by how much joints were aligned, if that is more than rounding in an assembly of some size; without
-    contacts, where the size is 0, than rounding of one unit of length."""
-    if found.angle < ROUNDED and found.length < ROUNDED * (size or 1.0):
-        return []
-    return [
-        f"for the noise of the file, directions were aligned by at most {found.angle:.1g} rad "
-        f"and axes by {found.length:.1g} {unit}"
-    ]
 
 
 def _detection_notes(contacts: Sequence[Contact], mechanism: Mechanism) -> tuple[str, ...]:

@@ -25,7 +25,7 @@ from jaxkin.cli.arguments import (
     Picture,
     Rigid,
     Seconds,
-    StudyFile,
+    StudyFileOption,
     Unit,
     Verbose,
     Version,
@@ -81,7 +81,7 @@ def inspect(
     seconds: Seconds = None,
     png: Picture = None,
     page: Page = None,
-    study_file: StudyFile = None,
+    study_file: StudyFileOption = None,
     verbose: Verbose = False,
 ) -> None:
     """Print what is found in an assembly: faces, contacts, joints, loops, mobility, and what was refused and why.

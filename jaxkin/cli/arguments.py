@@ -125,7 +125,7 @@ def _ending(suffix: str, what: str) -> Callable[[Path | None], Path | None]:
     return check
 
 
-StudyFile = Annotated[
+StudyFileOption = Annotated[
     Path | None,
     typer.Option(
         "--study",

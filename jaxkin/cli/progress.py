@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from rich.progress import Progress
 
 
-class Steps:
+class CommandSteps:
     """The steps of a command: call it with what each is at its beginning, and `within` as the step goes on."""
 
     def __init__(self, bar: Progress | None, total: int) -> None:
@@ -30,14 +30,14 @@ class Steps:
 
 
 @contextmanager
-def progress(steps: int) -> Iterator[Steps]:
+def progress(steps: int) -> Iterator[CommandSteps]:
     """Show a bar on the terminal (stderr), gone when done; its steps are to be told by what it yields."""
     from rich.console import Console
     from rich.progress import Progress
 
     console = Console(stderr=True)
     if not console.is_terminal:
-        yield Steps(None, steps)
+        yield CommandSteps(None, steps)
         return
     with Progress(console=console, transient=True) as bar:
-        yield Steps(bar, steps)
+        yield CommandSteps(bar, steps)

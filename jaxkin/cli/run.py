@@ -12,7 +12,7 @@ import typer
 
 from jaxkin.cli.errors import about_input
 from jaxkin.cli.options import Options
-from jaxkin.cli.progress import Steps, progress
+from jaxkin.cli.progress import CommandSteps, progress
 
 if TYPE_CHECKING:
     from jaxkin.assembly.assembly import Assembly
@@ -106,7 +106,7 @@ def named(files: Sequence[Path]) -> str:
     return files[0].name + (f" and {len(files) - 1} more" if len(files) > 1 else "")
 
 
-def read(files: Sequence[Path], options: Options, step: Steps) -> Study:
+def read(files: Sequence[Path], options: Options, step: CommandSteps) -> Study:
     """Make the study that files and options make: a step of the progress."""
     step(f"reading {named(files)}")
     study = options.on(files, step.within)
@@ -119,14 +119,14 @@ def read(files: Sequence[Path], options: Options, step: Steps) -> Study:
     return study
 
 
-def find_contacts(study: Study, step: Steps) -> None:
+def find_contacts(study: Study, step: CommandSteps) -> None:
     """Find the contacts of a study once, here, where that is shown: a step of the progress."""
     step("finding contacts")
     if study.assembly and study.detect and not study.by_export:
         study.assembly.contacts(**study.tolerance, progress=step.within)
 
 
-def find_joints(files: Sequence[Path], options: Options, step: Steps) -> Study:
+def find_joints(files: Sequence[Path], options: Options, step: CommandSteps) -> Study:
     """Make the study that files and options make, and find its contacts and joints: three steps of the progress."""
     study = read(files, options, step)
     check_fixed(study)

@@ -151,7 +151,7 @@ class _Nearly(NamedTuple):
     region: ContactRegion
 
 
-Found = tuple[ContactState, Touch, ContactRegion]
+FoundTouch = tuple[ContactState, Touch, ContactRegion]
 """A state that two faces are in, with the place of the touch and the region."""
 
 
@@ -170,7 +170,7 @@ def _examine(
     return None if found is None else _contact(parts, faces, *found)
 
 
-def _state(faces: tuple[Face, Face], at: Vector, tol: ContactTolerance) -> Found | _Nearly | None:
+def _state(faces: tuple[Face, Face], at: Vector, tol: ContactTolerance) -> FoundTouch | _Nearly | None:
     """Find the first state that two faces are in, else the one that they are nearest to, else None.
 
     The kinds of the faces are in the order of `KINDS`; `at` is a point near the contact, (3,).

@@ -18,7 +18,7 @@ from jaxkin.geometry.pose import Vector
 
 Flat = Float[np.ndarray, "_ 3 2"]
 """Corners of triangles in a chart."""
-Solid = Float[np.ndarray, "_ 3 3"]
+SolidTriangles = Float[np.ndarray, "_ 3 3"]
 """Corners of triangles in space."""
 
 _MAX_PAIRS = 50_000
@@ -50,7 +50,7 @@ class Overlap:
         return float(np.linalg.norm(self.box[1] - self.box[0]))
 
 
-def flat(triangles: Solid, origin: Vector, x: Vector, y: Vector) -> Flat:
+def flat(triangles: SolidTriangles, origin: Vector, x: Vector, y: Vector) -> Flat:
     """Project triangles onto a plane: coordinates from `origin` along the unit vectors `x` and `y`."""
     return np.stack([(triangles - origin) @ x, (triangles - origin) @ y], axis=-1)
 
@@ -64,7 +64,9 @@ def overlap(first: Flat, second: Flat, tolerance: float) -> Overlap | None:
     return _sum(*_intersections(first[pairs[:, 0]], second[pairs[:, 1]], tolerance))
 
 
-def overlap_on_sphere(first: Solid, second: Solid, centre: Vector, radius: float, tolerance: float) -> Overlap | None:
+def overlap_on_sphere(
+    first: SolidTriangles, second: SolidTriangles, centre: Vector, radius: float, tolerance: float
+) -> Overlap | None:
     """Compute what two sets of triangles on a sphere share; None if they are farther apart than `tolerance`, a length.
 
     Each pair of triangles is projected from the centre of the sphere onto the tangent plane at the middle of the first
@@ -92,7 +94,7 @@ def overlap_on_sphere(first: Solid, second: Solid, centre: Vector, radius: float
     return _sum(areas, lifted(middles[:, None])[:, 0], lifted(corners), shared)
 
 
-def _bulging_boxes(triangles: Solid) -> Float[np.ndarray, "triangles 2 3"]:
+def _bulging_boxes(triangles: SolidTriangles) -> Float[np.ndarray, "triangles 2 3"]:
     """Compute boxes around the parts of the unit sphere over triangles with corners on it.
 
     A triangle lies in a circle of its longest edge over sqrt(3) (Jung 1901), over which the sphere bulges by its

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from jaxkin.contacts.region import ContactRegion
-from jaxkin.contacts.remedy import Options, remedy, told_apart
+from jaxkin.contacts.remedy import ToleranceChoices, remedy, told_apart
 from jaxkin.contacts.tolerance import ContactTolerance, reach, smaller_radius
 from jaxkin.contacts.touch import Touch
 from jaxkin.geometry.surfaces import Surface
@@ -69,7 +69,7 @@ def of_moving_parts(text: str, joint: str) -> str:
     return f"{thicker}{moves}; a press fit would hold them together, and lock that joint: {line}"
 
 
-def _advice(options: Options, only: bool) -> str:
+def _advice(options: ToleranceChoices, only: bool) -> str:
     """Write the end of the text: the tolerances to give; `only` says that there is nothing to correct in the model."""
     if not options:
         return ""

@@ -15,7 +15,7 @@ import numpy as np
 
 from jaxkin.contacts import intervals
 from jaxkin.contacts.intervals import Intervals
-from jaxkin.contacts.overlap import Overlap, Solid, flat, overlap, overlap_on_sphere
+from jaxkin.contacts.overlap import Overlap, SolidTriangles, flat, overlap, overlap_on_sphere
 from jaxkin.contacts.rim import Difference, chord_height
 from jaxkin.contacts.touch import Touch
 from jaxkin.contacts.unrolled import shorter_way, turned, unrolled, unrolled_difference
@@ -81,7 +81,7 @@ def _surface(touch: Touch, face1: Face, face2: Face, tolerance: float) -> Contac
     return None
 
 
-def _is_wide(shared: Overlap, a: Solid, b: Solid, between: Difference, tolerance: float) -> bool:
+def _is_wide(shared: Overlap, a: SolidTriangles, b: SolidTriangles, between: Difference, tolerance: float) -> bool:
     """Check that an overlap is wider than the slivers that noise and chords of two tessellations leave at an edge."""
     width = shared.area / max(shared.extent, tolerance)
     if width > 0.1 * shared.extent:

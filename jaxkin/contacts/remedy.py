@@ -25,7 +25,7 @@ _PRINTED = 6
 _CLOSE = 9
 """Largest number of significant digits that `told_apart` writes; beyond them numbers differ by rounding only."""
 
-Options = dict[str, float]
+ToleranceChoices = dict[str, float]
 """Values by the names of arguments of `Assembly.contacts`."""
 
 
@@ -35,7 +35,7 @@ def remedy(
     tolerance: ContactTolerance,
     surfaces: tuple[Surface, Surface],
     works: Callable[[ContactTolerance], bool],
-) -> Options:
+) -> ToleranceChoices:
     """Find the tolerances that make a near miss a contact, as few as possible; empty if no acceptable ones do.
 
     `works` checks whether given tolerances make the faces a contact.
@@ -50,10 +50,10 @@ def remedy(
 
 def _candidates(
     touch: Touch, region: ContactRegion, tolerance: ContactTolerance, surfaces: tuple[Surface, Surface]
-) -> Iterator[Options]:
+) -> Iterator[ToleranceChoices]:
     """Yield tolerances that may make the touch a contact: first a larger `fit` alone, then a larger `length` too."""
     radius, clearance = smaller_radius(*surfaces), touch.clearance
-    fits: list[Options] = [{}]
+    fits: list[ToleranceChoices] = [{}]
     if clearance is not None and clearance > max(tolerance.length, tolerance.fit * radius):
         fits = [{"fit": value} for more in _MORE if (value := rounded_up(more * clearance / radius)) > tolerance.fit]
     yield from filter(None, fits)

@@ -20,14 +20,14 @@ from jaxkin.geometry.part import Face
 from jaxkin.geometry.pose import Vector, perpendicular
 from jaxkin.geometry.surfaces import Cone, Plane, Sphere
 
-Displacements = Float[np.ndarray, "3 4 poses"]
+FaceDisplacements = Float[np.ndarray, "3 4 poses"]
 """Displacements of face 2 relative to face 1 from the assembled pose, in world coordinates: the first three rows of
 4x4 matrices, with the pose as last axis."""
 Gaps = Float[np.ndarray, " poses"]
 """For each pose the length by which the faces are at least apart along the surface; negative where they may overlap."""
 
 
-def along_axis(face1: Face, face2: Face, displacements: Displacements) -> Gaps:
+def along_axis(face1: Face, face2: Face, displacements: FaceDisplacements) -> Gaps:
     """Measure the gap along the axis of cylinder 1, between its heights and those of cylinder, cone or ball 2.
 
     A cone that touches along a ruling has its ruling parallel to the axis; a ball counts by its centre.
@@ -37,7 +37,7 @@ def along_axis(face1: Face, face2: Face, displacements: Displacements) -> Gaps:
     return _between(one, other, place, 1.0 if one.direction @ other.direction >= 0 else -1.0)
 
 
-def on_ruling(face1: Face, face2: Face, displacements: Displacements) -> Gaps:
+def on_ruling(face1: Face, face2: Face, displacements: FaceDisplacements) -> Gaps:
     """Measure the gap along the rulings of cone 1, between face 1 and the point where ball 2 touches its ruling."""
     one, cone, centre = interval(face1), cast(Cone, face1.surface), interval(face2).origin
     offset = _points(displacements, centre) - cone.apex[:, None]
@@ -47,7 +47,7 @@ def on_ruling(face1: Face, face2: Face, displacements: Displacements) -> Gaps:
     return _between(one, Interval(centre, one.direction, 0.0, 0.0), place, 1.0)
 
 
-def across(face1: Face, face2: Face, displacements: Displacements) -> Gaps:
+def across(face1: Face, face2: Face, displacements: FaceDisplacements) -> Gaps:
     """Measure the gap of two crossed cylinders along either axis, between the face and the common normal of the axes.
 
     Of the two gaps, the larger one is returned.
@@ -63,7 +63,7 @@ def across(face1: Face, face2: Face, displacements: Displacements) -> Gaps:
     return np.maximum(_between(one, point, place1, 1.0), _between(other, point, place2, 1.0))
 
 
-def on_plane(face1: Face, face2: Face, displacements: Displacements) -> Gaps:
+def on_plane(face1: Face, face2: Face, displacements: FaceDisplacements) -> Gaps:
     """Measure the gap in plane 1 between the hull of face 1 and that of what lies on it.
 
     This is the outline of a plane, the contact line of a cylinder or a cone, or the contact point of a ball. -inf where
@@ -109,11 +109,11 @@ def _between(one: Interval, other: Interval, place: Gaps, sign: float) -> Gaps:
     return np.maximum(place + (low - one.high), (one.low - high) - place)
 
 
-def _points(displacements: Displacements, point: Vector) -> Float[np.ndarray, "3 poses"]:
+def _points(displacements: FaceDisplacements, point: Vector) -> Float[np.ndarray, "3 poses"]:
     """Displace a point."""
     return np.einsum("ijn,j->in", displacements, np.append(point, 1.0))
 
 
-def _moved(direction: Vector, displacements: Displacements, point: Vector) -> Gaps:
+def _moved(direction: Vector, displacements: FaceDisplacements, point: Vector) -> Gaps:
     """Compute the coordinate of a displaced point along a direction, from the origin of the world."""
     return np.einsum("i,ijn,j->n", direction, displacements, np.append(point, 1.0))

@@ -14,7 +14,7 @@ from typing import Literal
 
 from jaxkin.contacts import rulings, separation, touch
 
-Region = Literal["surface", "line", "point", "circle"]
+RegionKind = Literal["surface", "line", "point", "circle"]
 
 OUTSIDE = ((1, 1),)
 """Sides of two bodies next to each other: the material is inside of both surfaces (see `ContactState.sides`)."""
@@ -37,7 +37,7 @@ class ContactState:
     sides: tuple[tuple[int, int], ...]
     """Sides (of surface 1, of surface 2) that the state allows: +1 material inside (pin, ball, also plane), -1 outside
     (hole, socket)."""
-    region: Region
+    region: RegionKind
     """What the surfaces have in common where they touch."""
     frames: tuple[tuple[str, str], ...]
     """Table 1: for each frame what z is parallel to and what the origin lies on, in symbols of the paper: surface f,

@@ -6,7 +6,7 @@ of their numbers, as objectives are.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
@@ -26,11 +26,11 @@ from jaxkin.design.measures import (
     part_point,
     transmission_angle,
 )
+from jaxkin.design.objective import Extras
+from jaxkin.dimensions.features import LengthName
 from jaxkin.mechanism.motion import Motion
 
-Extras = Mapping[str, Any]
 Constraint = Callable[[Motion, Extras], Any] | Callable[[Motion], Any]
-Key = tuple[str, ...]
 
 
 class DesignConstraint:
@@ -49,7 +49,7 @@ def constraint_name(constraint: Constraint) -> str:
 @dataclass(frozen=True, eq=False)
 class _FullCrank(DesignConstraint):
     name = "full_crank"
-    bars: tuple[Key, Key, Key, Key] = field(metadata=STATIC)
+    bars: tuple[LengthName, LengthName, LengthName, LengthName] = field(metadata=STATIC)
 
     def __call__(self, motion: Motion, extras: Extras):
         g, a, b, c = lengths_now(motion.mechanism, self.bars)
@@ -57,7 +57,7 @@ class _FullCrank(DesignConstraint):
         return jnp.stack([total - 2 * (a + other) for other in (g, b, c)]) / total
 
 
-def full_crank(ground: Key, crank: Key, coupler: Key, rocker: Key) -> Constraint:
+def full_crank(ground: LengthName, crank: LengthName, coupler: LengthName, rocker: LengthName) -> Constraint:
     """Demand that the crank of a four-bar turns fully: it is the shortest bar, and with each other one no longer than
     the rest.
 
@@ -73,14 +73,14 @@ def full_crank(ground: Key, crank: Key, coupler: Key, rocker: Key) -> Constraint
 @dataclass(frozen=True, eq=False)
 class _Grashof(DesignConstraint):
     name = "grashof"
-    bars: tuple[Key, ...] = field(metadata=STATIC)
+    bars: tuple[LengthName, ...] = field(metadata=STATIC)
 
     def __call__(self, motion: Motion, extras: Extras):
         lengths = jnp.sort(jnp.stack([jnp.asarray(each) for each in lengths_now(motion.mechanism, self.bars)]))
         return (lengths[1] + lengths[2] - lengths[0] - lengths[3])[None] / jnp.sum(lengths)
 
 
-def grashof(*bars: Key) -> Constraint:
+def grashof(*bars: LengthName) -> Constraint:
     """Demand that some bar of a four-bar turns fully: the shortest and the longest are no longer than the other two."""
     if len(bars) != 4:
         raise ValueError(f"grashof: name the four bars of a four-bar by their keys as in with_lengths, got {len(bars)}")

@@ -13,7 +13,7 @@ from jax.extend.core import jaxpr_as_fun
 from jaxtyping import Bool, Float
 
 from jaxkin.design.augmented_lagrangian import Penalty, Verdict
-from jaxkin.design.problem import HOPELESS, Problem, ProgramKey, Weighted, taken_apart
+from jaxkin.design.problem import HOPELESS, Problem, ProgramKey, WeightedResiduals, taken_apart
 from jaxkin.design.solvers import CHUNK, KEPT, TOGETHER, Solver, in_groups, unit_box
 from jaxkin.solve.execution.two_tiers import TwoTiers
 from jaxkin.solve.lockstep import in_lockstep
@@ -49,7 +49,7 @@ def least_squares(problem: Problem, together: int = TOGETHER) -> Solver:
     key, numbers = taken_apart(problem)
     program = _program(key, together).search()
 
-    def found(units, penalty) -> tuple[Weighted, np.ndarray]:
+    def found(units, penalty) -> tuple[WeightedResiduals, np.ndarray]:
         given = jax.tree.map(lambda leaf: np.asarray(leaf, dtype), (units, penalty))
         return in_groups(lambda group: program(numbers, *group), together, given)
 

@@ -34,7 +34,7 @@ class Term(Protocol):
         ...
 
 
-class Weighted(NamedTuple):
+class WeightedTerm(NamedTuple):
     """A term of a sum."""
 
     weight: Any
@@ -46,7 +46,7 @@ class Weighted(NamedTuple):
 class Objective:
     """A sum of squares over a motion, with what it takes to draw it."""
 
-    terms: tuple[Weighted, ...]
+    terms: tuple[WeightedTerm, ...]
 
     def residuals(self, motion: Motion, extras: Extras | None = None) -> Float[Array, " rows"]:
         """Return the numbers whose squares add up to the objective, weights included."""
@@ -62,7 +62,7 @@ class Objective:
         weight = given.number(weight, "the weight of an objective")
         if not traced(weight) and weight < 0:
             raise ValueError(f"the weight of an objective must not be negative, got {weight}")
-        return replace(self, terms=tuple(Weighted(weight * w, term) for w, term in self.terms))
+        return replace(self, terms=tuple(WeightedTerm(weight * w, term) for w, term in self.terms))
 
     __mul__ = __rmul__
 
@@ -74,4 +74,4 @@ class Objective:
 
 def single(term: Term) -> Objective:
     """Make the objective of one term, of weight 1."""
-    return Objective((Weighted(1.0, term),))
+    return Objective((WeightedTerm(1.0, term),))

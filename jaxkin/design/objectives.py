@@ -21,8 +21,6 @@ from jaxkin.design.measures import stroke as stroke_between
 from jaxkin.design.objective import Extras, Objective, single
 from jaxkin.mechanism.motion import Motion
 
-Numbers = Array | np.ndarray
-
 _WITH_TIMING = "with timing each pose has its target, write timing=False to compare with the nearest place of the path"
 """What to do about other numbers of targets than of poses."""
 
@@ -31,7 +29,7 @@ _WITH_TIMING = "with timing each pose has its target, write timing=False to comp
 @dataclass(frozen=True, eq=False)
 class _Path:
     point: PartPoint
-    wanted: Float[Numbers, "targets components"]
+    wanted: Float[Array | np.ndarray, "targets components"]
     timing: bool = field(metadata=STATIC)
     placement: str | None = field(metadata=STATIC)
     components: tuple[int, ...] = field(metadata=STATIC)
@@ -95,7 +93,7 @@ def path(
 @dataclass(frozen=True, eq=False)
 class _Function:
     joint: str = field(metadata=STATIC)
-    wanted: Float[Numbers, " targets"]
+    wanted: Float[Array | np.ndarray, " targets"]
     relative: bool = field(metadata=STATIC)
 
     def rows(self, motion: Motion, extras: Extras):
@@ -127,7 +125,7 @@ def function(joint: str, targets: Any, *, relative: bool = True) -> Objective:
 @dataclass(frozen=True, eq=False)
 class _Guidance:
     point: PartPoint
-    wanted: Float[Numbers, "poses 3"]
+    wanted: Float[Array | np.ndarray, "poses 3"]
     size: Any
 
     def rows(self, motion: Motion, extras: Extras):
@@ -210,7 +208,7 @@ def stroke_of(joint: str, wanted: float) -> Objective:
 @dataclass(frozen=True, eq=False)
 class _Dwell:
     joint: str = field(metadata=STATIC)
-    poses: Int[Numbers, " poses"]
+    poses: Int[Array | np.ndarray, " poses"]
     of: int | None = field(metadata=STATIC)
     """The number of all poses, where a mask named some."""
     span: tuple[int, int] = field(metadata=STATIC)

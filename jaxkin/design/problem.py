@@ -52,7 +52,7 @@ class Judged(NamedTuple):
         return jnp.all(jnp.isfinite(jnp.concatenate(self)))
 
 
-class Weighted(NamedTuple):
+class WeightedResiduals(NamedTuple):
     """What a sum of squares adds up, for a design and a penalty."""
 
     rows: Float[Array, " rows"]
@@ -117,10 +117,12 @@ class Problem:
         """Count the values of all constraints, for the motion and the extras of any design."""
         return sum(rows.size for rows in jax.eval_shape(_margins, self, motion, extras))
 
-    def weighted(self, vector, penalty: Penalty) -> Weighted:
+    def weighted(self, vector, penalty: Penalty) -> WeightedResiduals:
         """Compute residuals and violations, weighted so that the sum of their squares is what is minimised."""
         judged, root = self.judge(vector), jnp.sqrt(penalty.weight)
-        return Weighted(judged.rows, root * judged.gaps, root * jnp.maximum(penalty.shifts - judged.margins, 0.0))
+        return WeightedResiduals(
+            judged.rows, root * judged.gaps, root * jnp.maximum(penalty.shifts - judged.margins, 0.0)
+        )
 
     def total(self, vector, penalty: Penalty) -> Float[Array, ""]:
         """Compute the loss with its penalty."""

@@ -27,12 +27,12 @@ POSES, PIECE = 361, 32
 STEEP = 100.0
 """Radians, or lengths over the size of the mechanism, per radian of the drive: beyond it a pose is near-singular."""
 SAVED_FORMAT = 2
-"""Version of the files that `Optimum.save` writes, raised with every change of their fields: those of `Moves` and
-`Optimum`, and of `jaxkin.linkage.record`. Files of another version are refused."""
+"""Version of the files that `Optimum.save` writes, raised with every change of their fields: those of `SweepVerdict`
+and `Optimum`, and of `jaxkin.linkage.record`. Files of another version are refused."""
 
 
 @dataclass(frozen=True)
-class Moves:
+class SweepVerdict:
     """The verdict of a fine sweep over the range of the drive."""
 
     poses: int
@@ -79,7 +79,7 @@ class Optimum:
     losses: np.ndarray
     """Where every start ended."""
     violations: np.ndarray
-    moves: Moves
+    moves: SweepVerdict
     motion: Motion | None = None
     initial: tuple[Motion, dict[str, Any]] | None = None
     """Motion and extras of the design given; not saved."""
@@ -177,11 +177,11 @@ def read_optimum(path: str | os.PathLike[str]) -> Optimum:
         **{name: arrays[name] for name in ("history", "losses", "violations")},
         extras=named["extra"],
         drive=named["drive"],
-        moves=Moves(**text["moves"]),
+        moves=SweepVerdict(**text["moves"]),
     )
 
 
-def judged_range(motion: Motion) -> Moves:
+def judged_range(motion: Motion) -> SweepVerdict:
     """Find the verdict of a fine sweep over the range of the drive; of several inputs, along the poses given.
 
     It is swept in pieces as long as the motion is: the program for these is compiled already, and one for the whole
@@ -200,7 +200,7 @@ def judged_range(motion: Motion) -> Moves:
             found = motion.mechanism.sweep({name: values[piece]}, options=motion.options)
             status[piece], steepest = found.status, max(steepest, _steepest(found))
     counts = {each.name: int(np.sum(status == each)) for each in Status if np.any(status == each)}
-    return Moves(len(status), counts, steepest)
+    return SweepVerdict(len(status), counts, steepest)
 
 
 def _steepest(motion: Motion) -> float:

@@ -6,7 +6,7 @@ import sys
 from typing import Any, NamedTuple
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
 from jaxkin.design.augmented_lagrangian import MET, Penalty, Verdict, renewed, worth_more
 from jaxkin.design.optimisers import Optimiser
@@ -58,7 +58,8 @@ def search_with_multipliers(
     designs = Designs(vectors, *np.full((2, starts), np.inf))
     active, unsettled = np.ones(starts, bool), np.full(starts, np.inf)
     for number in range(1, MAX_SEARCHES + 1):
-        vectors, reason = search(downhill, vectors, penalty, active, solver, history, bar)
+        vectors, reason, losses = search(downhill, vectors, penalty, active, solver, bar)
+        history += losses
         verdict = downhill.judge(vectors, penalty.shifts)
         designs = designs.improved(vectors, verdict)
         best = designs.best
@@ -72,12 +73,20 @@ def search_with_multipliers(
     return designs, reason, history
 
 
-def search(downhill: Solver, vectors, penalty: Penalty, active, stop: Optimiser, history, bar):
-    """Improve the active starts; returns all designs, and why the search ended.
+def search(
+    downhill: Solver,
+    vectors: Float[np.ndarray, "starts variables"],
+    penalty: Penalty,
+    active: Bool[np.ndarray, " starts"],
+    stop: Optimiser,
+    bar: ProgressBar,
+) -> tuple[Float[np.ndarray, "starts variables"], str, list[np.ndarray]]:
+    """Improve the active starts; returns all designs, why the search ended, and the losses after each iteration.
 
     A start retires where its loss stays as it is, or at its pace will not reach the best one in the iterations left: it
-    costs nothing more. The losses after each iteration are added to `history`.
+    costs nothing more.
     """
+    history = list[np.ndarray]()
     state = downhill.begin(vectors, penalty)
     iterations, tolerance, target = stop.iterations, stop.tolerance, stop.target
     last = np.full(len(vectors), np.finfo(float).max)
@@ -90,7 +99,7 @@ def search(downhill: Solver, vectors, penalty: Penalty, active, stop: Optimiser,
         if target is not None and least <= target:
             found = downhill.judge(downhill.vectors(state), penalty.shifts)
             if np.any((found.losses <= target) & (found.violations <= MET)):
-                return downhill.vectors(state), f"the target {target:g} was reached after {done} iterations"
+                return downhill.vectors(state), f"the target {target:g} was reached after {done} iterations", history
         settled = (now >= last - tolerance * np.abs(last)) | (now <= 1e-30)
         with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
             expected = now * np.minimum(now / last, 1.0) ** ((iterations - done) / CHUNK)
@@ -98,12 +107,13 @@ def search(downhill: Solver, vectors, penalty: Penalty, active, stop: Optimiser,
         active = active & ~(settled | hopeless)
         last = now
         if not active.any():
-            return downhill.vectors(state), (
+            reason = (
                 f"converged after {done} iterations: every start improved by less than {tolerance:g} relative in "
                 f"{CHUNK} of them, or too slowly to reach the best one"
             )
+            return downhill.vectors(state), reason, history
     improving = f"{active.sum()} starts were" if active.sum() > 1 else "1 start was"
-    return downhill.vectors(state), f"all {iterations} iterations were used; {improving} still improving"
+    return downhill.vectors(state), f"all {iterations} iterations were used; {improving} still improving", history
 
 
 def _better(losses, violations, losses_before, violations_before):

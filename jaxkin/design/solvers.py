@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from jaxkin.design.augmented_lagrangian import Penalty, Verdict
-from jaxkin.design.variables import Variables, Vector
+from jaxkin.design.variables import DesignVector, Variables
 
 CHUNK = 10
 """Iterations after which starts may retire, and the search may end."""
@@ -55,6 +55,6 @@ def in_groups(
     return jax.tree.map(lambda *groups: np.concatenate(groups)[: len(chosen)], *found())
 
 
-def unit_box(chosen: Variables) -> tuple[Vector, Vector]:
+def unit_box(chosen: Variables) -> tuple[DesignVector, DesignVector]:
     """Return lower bounds and widths: vectors are lower + width * unit."""
     return chosen.lower, chosen.upper - chosen.lower

@@ -19,7 +19,7 @@ from jaxkin.dimensions.lengths import find_length
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
-Vector = Float[np.ndarray | Array, " variables"]
+DesignVector = Float[np.ndarray | Array, " variables"]
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Free:
     upper: Any
 
 
-class Values(NamedTuple):
+class Design(NamedTuple):
     """A design: the values of all variables by name."""
 
     lengths: dict[Any, Any]
@@ -66,11 +66,11 @@ class Variables:
     """All variables, one after another. A pytree of bounds and fixed inputs."""
 
     entries: tuple[_Entry, ...] = field(metadata=STATIC)
-    start: Vector
+    start: DesignVector
     """The vector of the design that was given."""
-    lower: Vector
+    lower: DesignVector
     """Lower bounds."""
-    upper: Vector
+    upper: DesignVector
     """Upper bounds."""
     fixed_keys: tuple[Any, ...] = field(metadata=STATIC)
     """Keys of the drive that are no variables."""
@@ -91,7 +91,7 @@ class Variables:
             names += [label + "".join(f"[{i}]" for i in index) for index in np.ndindex(entry.shape)]
         return names
 
-    def values(self, vector) -> Values:
+    def values(self, vector) -> Design:
         """Make the design that a vector stands for."""
         fixed = dict(zip(self.fixed_keys, self.fixed_inputs, strict=True))
         found: dict[str, dict] = {"lengths": {}, "points": {}, "inputs": fixed, "extras": {}}
@@ -106,7 +106,7 @@ class Variables:
         for key, given in found["inputs"].items():
             if callable(given):
                 found["inputs"][key] = given(found["extras"])
-        return Values(**found)
+        return Design(**found)
 
     def with_functions(self, traced: Callable[..., Any]) -> Variables:
         """Replace functions of extras, and those of ties, by what `traced` makes of the function, a name, and the

@@ -14,10 +14,10 @@ from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.linkage import Linkage
 
-Side = Literal["frames_1", "frames_2"]
-Kind = Literal["point", "axis", "plane"]
+JointSide = Literal["frames_1", "frames_2"]
+DatumKind = Literal["point", "axis", "plane"]
 Quantity = Literal["distance", "radius", "angle", "offset", "pitch"]
-Key = tuple[str, ...]
+LengthName = tuple[str, ...]
 
 
 class Feature(NamedTuple):
@@ -25,10 +25,10 @@ class Feature(NamedTuple):
 
     joint: int
     """Column of the joint in the mechanism."""
-    side: Side
+    side: JointSide
     frame: int
     """Index of the frame in the chain of the joint."""
-    kind: Kind
+    kind: DatumKind
     axis: int
     """Which axis of the frame is the axis, or the normal of the plane."""
     marked: bool
@@ -59,9 +59,9 @@ def part_features(linkage: Linkage) -> dict[str, tuple[Feature, ...]]:
     return {row: tuple(features) for row, features in found.items()}
 
 
-def length_table(linkage: Linkage) -> dict[Key, Length]:
+def length_table(linkage: Linkage) -> dict[LengthName, Length]:
     """List all lengths of a mechanism by name, see `Mechanism.lengths`; only structure and movements are used."""
-    table: dict[Key, Length] = {}
+    table: dict[LengthName, Length] = {}
     names = [joint.name for joint in linkage.joints]
     for row, features in part_features(linkage).items():
         for i, j in combinations(range(len(features)), 2):
@@ -86,7 +86,7 @@ def length_table(linkage: Linkage) -> dict[Key, Length]:
     return table
 
 
-def _feature(column: int, joint: Joint, side: Side, frame: int) -> Feature:
+def _feature(column: int, joint: Joint, side: JointSide, frame: int) -> Feature:
     """Find the feature of one frame of a joint; ValueError for a movement without one."""
     movement = MOVEMENTS[joint.movements[frame]]
     left = movement.feature

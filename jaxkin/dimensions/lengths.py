@@ -15,7 +15,7 @@ from jaxkin._arguments import by_name
 from jaxkin._names import nearest
 from jaxkin._traced import traced
 from jaxkin.dimensions.feature_geometry import between, moved, value
-from jaxkin.dimensions.features import Feature, Key, Length, Quantity, length_table
+from jaxkin.dimensions.features import Feature, Length, LengthName, Quantity, length_table
 from jaxkin.dimensions.rearrange import Change, Layout, arrange
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.linkage import Linkage
@@ -31,7 +31,7 @@ Body = tuple[Feature, ...]
 """The features of one part, or of a body between two frames of a contact joint."""
 
 
-def lengths(linkage: Linkage) -> dict[Key, float | jax.Array]:
+def lengths(linkage: Linkage) -> dict[LengthName, float | jax.Array]:
     """Measure all lengths by name: see `Mechanism.lengths`."""
     table = length_table(linkage)
     return dict(zip(table, _measured(linkage, list(table.values())), strict=True))
@@ -115,7 +115,7 @@ def find_length(linkage: Linkage, key: object) -> Length:
     raise ValueError(_unknown(linkage, key, row, table))
 
 
-def _unknown(linkage: Linkage, key: Key, row: str, table: dict[Key, Length]) -> str:
+def _unknown(linkage: Linkage, key: LengthName, row: str, table: dict[LengthName, Length]) -> str:
     """Say that there is no such length, with the nearest names or all lengths of the part."""
     start = f"there is no length {key!r}"
     joints = list(linkage.structure.joints)
@@ -252,7 +252,7 @@ def _with_frames(joint: Joint, frames: Mapping[tuple, Any], pitch: Any) -> Joint
     return replace(joint, **sides, pitch=joint.pitch if pitch is None else pitch)
 
 
-def _checked(key: Key, length: Length, wanted):
+def _checked(key: LengthName, length: Length, wanted):
     """Check that a new length is a finite number in its range (ValueError); traced numbers are not checked."""
     if traced(wanted):
         return wanted

@@ -35,7 +35,7 @@ MAX_SECONDS = 2.0
 """Seconds after which no more sweeps are timed."""
 
 
-class Point(NamedTuple):
+class WorkPrecisionPoint(NamedTuple):
     """Time and error of one sweep."""
 
     method: str
@@ -58,7 +58,7 @@ class Point(NamedTuple):
 class WorkPrecision:
     """Time against error of the sweeps of one mechanism. Prints itself as a table, and draws itself."""
 
-    points: tuple[Point, ...]
+    points: tuple[WorkPrecisionPoint, ...]
     poses: int
     compared: int
     """Poses whose error was measured."""
@@ -171,7 +171,9 @@ def _has_formulas(mechanism: Mechanism, drive: Mapping[str, object], options: So
     return options.formulas and bool(loop_groups) and all(loop_group.axes is not None for loop_group in loop_groups)
 
 
-def _measured(mechanism: Mechanism, drive, options: SolverOptions, precision: str, exact: _ExactPoses) -> Point:
+def _measured(
+    mechanism: Mechanism, drive, options: SolverOptions, precision: str, exact: _ExactPoses
+) -> WorkPrecisionPoint:
     """Time one sweep, compiled before, and measure its error."""
 
     def run() -> Motion:
@@ -186,7 +188,9 @@ def _measured(mechanism: Mechanism, drive, options: SolverOptions, precision: st
     residual = float(np.max(np.asarray(motion.residual)[closed], initial=0.0))
     seconds = float(np.median(times))
     error = exact.error(motion)
-    return Point(options.method, precision, options.tolerance, seconds, error, residual, float(closed.mean()))
+    return WorkPrecisionPoint(
+        options.method, precision, options.tolerance, seconds, error, residual, float(closed.mean())
+    )
 
 
 class _ExactPoses:

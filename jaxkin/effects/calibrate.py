@@ -13,7 +13,7 @@ import numpy as np
 from jaxtyping import Array, Bool, Float
 
 from jaxkin._arguments import by_name, check_known, check_mechanism, whole_number
-from jaxkin.effects.calibration_data import Data, Kind, data_of
+from jaxkin.effects.calibration_data import MeasuredQuantity, data_of
 from jaxkin.effects.calibration_result import Calibration
 from jaxkin.effects.calibration_unknowns import Nominal, Unknowns, unknowns_of
 from jaxkin.effects.rank_deficient_fit import Fit, fit, readable, told
@@ -32,7 +32,7 @@ class Model:
     """What is fitted to what: static to JAX."""
 
     unknowns: Unknowns
-    kinds: tuple[Kind, ...]
+    kinds: tuple[MeasuredQuantity, ...]
     driven: tuple[Any, ...]
     """Keys of the drive."""
     options: SolverOptions
@@ -47,6 +47,11 @@ class _Numbers(NamedTuple):
     """Those of `Data`, and so are the weights."""
     weights: tuple[Any, ...]
     nominal: Nominal
+
+    @property
+    def measured(self) -> int:
+        """How many numbers were measured."""
+        return sum(int(np.count_nonzero(weights)) for weights in self.weights)
 
 
 def calibrate(
@@ -111,7 +116,7 @@ def calibrate(
                 "it; leave it out, or give lengths that keep the mechanism what it is"
             )
     found = fit(evaluate, np.zeros(len(scales)), iterations)
-    return _result(mechanism, model, data, nominal, scales, found, sigma)
+    return _result(mechanism, model, numbers, scales, found, given_sigma=sigma is not None)
 
 
 @partial(jax.jit, static_argnums=0)
@@ -138,28 +143,31 @@ def _residuals(model: Model, mechanism: Mechanism, numbers: _Numbers, changes: F
 def _result(
     mechanism: Mechanism,
     model: Model,
-    data: Data,
-    nominal: Nominal,
+    numbers: _Numbers,
     scales: Float[np.ndarray, " unknowns"],
     found: Fit,
-    sigma: Any,
+    given_sigma: bool,
 ) -> Calibration:
-    """Make the result: covariance, and directions that are not told, from the Jacobian at the end of the fit."""
+    """Make the result: covariance, and directions that are not told, from the Jacobian at the end of the fit.
+
+    Without a `given_sigma` the standard deviation of what was measured is that of the residuals.
+    """
+    nominal = numbers.nominal
     singular, directions, rest = told(found.jacobian)
     if not len(singular):
         raise ValueError("the measured values do not depend on any of the unknowns: they tell nothing about them")
     changes = scales * found.unknowns
     fitted, _ = model.unknowns.applied(mechanism, nominal, changes)
-    freedom = data.count - len(singular)
+    freedom = numbers.measured - len(singular)
     square = float(found.residuals @ found.residuals)
     deviation = float(np.sqrt(square / freedom)) if freedom > 0 else np.nan
     scaled = (directions / singular[:, None]).T
-    covariance = scales[:, None] * (scaled @ scaled.T) * scales * (deviation**2 if sigma is None else 1.0)
+    covariance = scales[:, None] * (scaled @ scaled.T) * scales * (1.0 if given_sigma else deviation**2)
     lost = np.linalg.norm(rest, axis=0) > PART_OF
     covariance[lost] = covariance[:, lost] = np.nan
     names = model.unknowns.names
     residuals, first = {}, 0
-    for kind, weights in zip(data.kinds, data.weights, strict=True):
+    for kind, weights in zip(model.kinds, numbers.weights, strict=True):
         rows = found.residuals[first : first + weights.size].reshape(weights.shape)
         first += weights.size
         residuals[kind.name] = np.where(weights > 0, rows / np.where(weights > 0, weights, 1.0), np.nan)

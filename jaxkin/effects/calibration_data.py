@@ -20,7 +20,7 @@ from jaxkin.mechanism.targets import Target, middle_of_joints
 
 
 @dataclass(frozen=True)
-class Kind:
+class MeasuredQuantity:
     """One measured quantity. Static to JAX."""
 
     key: Any
@@ -60,16 +60,11 @@ class Kind:
 class Data:
     """All measurements as numbers."""
 
-    kinds: tuple[Kind, ...]
+    kinds: tuple[MeasuredQuantity, ...]
     values: tuple[Float[np.ndarray, "poses *shape"], ...]
     """Measured values, NaN replaced."""
     weights: tuple[Float[np.ndarray, "poses _"], ...]
     """One over the standard deviation of each number of the residuals; zero where nothing was measured."""
-
-    @property
-    def count(self) -> int:
-        """How many numbers were measured."""
-        return sum(int(np.count_nonzero(weights)) for weights in self.weights)
 
 
 def data_of(mechanism: Mechanism, measured: Any, sigma: Any, poses: int) -> Data:
@@ -100,22 +95,24 @@ def data_of(mechanism: Mechanism, measured: Any, sigma: Any, poses: int) -> Data
     return Data(tuple(kinds), tuple(values), scaled)
 
 
-def _kind(mechanism: Mechanism, key: Any) -> Kind:
+def _kind(mechanism: Mechanism, key: Any) -> MeasuredQuantity:
     """Tell what a key of the measurements means: a coordinate of a joint, or the place or orientation of a part.
 
     Raises ValueError for names that are not there, and for parts that are fixed.
     """
     if not isinstance(key, Target):
         column, index = coordinate(mechanism.linkage, key)
-        return Kind(key, key, (is_length(mechanism.all_joints[column].coordinates[index]),), column, index)
+        return MeasuredQuantity(key, key, (is_length(mechanism.all_joints[column].coordinates[index]),), column, index)
     if key.part not in mechanism.parts:
         raise ValueError(f"{key.joint}: there is no part {key.part!r}{nearest(key.part, mechanism.parts)}")
     if key.part in mechanism.fixed:
         raise ValueError(f"{key.joint}: the part {key.part!r} is fixed, and tells nothing")
-    return Kind(key, key.joint, {"pose": (True,) * 3 + (False,) * 3, "point": (True,) * 3}.get(key.kind, (False,) * 3))
+    return MeasuredQuantity(
+        key, key.joint, {"pose": (True,) * 3 + (False,) * 3, "point": (True,) * 3}.get(key.kind, (False,) * 3)
+    )
 
 
-def _array(kind: Kind, numbers: Any, poses: int) -> np.ndarray:
+def _array(kind: MeasuredQuantity, numbers: Any, poses: int) -> np.ndarray:
     """Return the measured values of one quantity as an array (poses, ...), NaN where nothing was measured.
 
     Raises ValueError for what is no real number, infinity, and arrays of another shape.
@@ -135,7 +132,7 @@ def _array(kind: Kind, numbers: Any, poses: int) -> np.ndarray:
     return array
 
 
-def _check_rigid(kind: Kind, array: np.ndarray) -> None:
+def _check_rigid(kind: MeasuredQuantity, array: np.ndarray) -> None:
     """Raise ValueError for rotations that are none to three digits: measured ones are rounded."""
     turn = array[:, :3, :3]
     off = np.abs(turn @ turn.swapaxes(1, 2) - np.eye(3)).max(initial=0.0)
@@ -145,7 +142,7 @@ def _check_rigid(kind: Kind, array: np.ndarray) -> None:
         raise ValueError(f"{kind.name}: the last row of the measured poses must be 0, 0, 0, 1; are they transposed?")
 
 
-def _deviations(kinds: list[Kind], sigma: Any) -> list[np.ndarray]:
+def _deviations(kinds: list[MeasuredQuantity], sigma: Any) -> list[np.ndarray]:
     """List the standard deviations of all residuals; ones where they are not given, and all of one unit."""
     alike = len({length for kind in kinds for length in kind.lengths}) == 1
     if sigma is None or not isinstance(sigma, Mapping):

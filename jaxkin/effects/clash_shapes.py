@@ -21,7 +21,7 @@ _SAME_PLACE = 1e-7
 
 
 @dataclass(frozen=True, eq=False)
-class Shape:
+class ClashShape:
     """A part as triangles with labels: the number of their face, or the number of faces where they are of none."""
 
     part: Part
@@ -71,7 +71,7 @@ def axis_points(face: Face) -> Float[np.ndarray, "_ 3"] | None:
     return np.stack([foot - half * surface.axis, foot + half * surface.axis])
 
 
-def shape_of(part: Part) -> Shape:
+def shape_of(part: Part) -> ClashShape:
     """Prepare a part."""
     from scipy.spatial import KDTree
 
@@ -85,10 +85,10 @@ def shape_of(part: Part) -> Shape:
         known = np.isfinite(distance)
         labels[known] = owners[np.asarray(nearest)[known]]
     triangles = np.ascontiguousarray(part.triangles, float) @ axes.T
-    return Shape(part, axes, triangle_tree(triangles, labels), labels)
+    return ClashShape(part, axes, triangle_tree(triangles, labels), labels)
 
 
-def displaced(one: Shape, other: Shape, of_one: np.ndarray, of_other: np.ndarray) -> Displaced:
+def displaced(one: ClashShape, other: ClashShape, of_one: np.ndarray, of_other: np.ndarray) -> Displaced:
     """Compute the displacements of one shape relative to another from those in the world, (poses, 4, 4) each."""
     turn = np.swapaxes(of_one[:, :3, :3], 1, 2)
     rotation = turn @ of_other[:, :3, :3]
@@ -96,7 +96,7 @@ def displaced(one: Shape, other: Shape, of_one: np.ndarray, of_other: np.ndarray
     return Displaced(one.axes @ rotation @ other.axes.T, shift @ one.axes.T)
 
 
-def boxes_along(shape: Shape, transforms: Float[np.ndarray, "poses 4 4"]) -> Float[np.ndarray, "poses 2 3"]:
+def boxes_along(shape: ClashShape, transforms: Float[np.ndarray, "poses 4 4"]) -> Float[np.ndarray, "poses 2 3"]:
     """Compute the bounding boxes of a displaced part in world axes."""
     points = np.einsum("pij,nj->pni", transforms[:, :3, :3], shape.part.outermost) + transforms[:, None, :3, 3]
     return np.stack([points.min(axis=1), points.max(axis=1)], axis=1)

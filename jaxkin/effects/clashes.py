@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -13,7 +13,7 @@ from jaxtyping import Bool, Float
 from jaxkin._arguments import check_known, check_motion, numbers, several
 from jaxkin._grouped import MAX_LINES
 from jaxkin._names import nearest
-from jaxkin.effects.clash_shapes import Shape, boxes_along, displaced, near_pairs, shape_of
+from jaxkin.effects.clash_shapes import ClashShape, boxes_along, displaced, near_pairs, shape_of
 from jaxkin.effects.invariant_faces import SAME_PLACE, invariant
 from jaxkin.effects.penetration import depths
 from jaxkin.effects.pose_plot import NAMED, draw_lines, save_rows
@@ -199,9 +199,8 @@ def clashes(
         row = np.full(len(motion), np.nan)
         row[closed] = np.inf
         moved = displaced(shapes[i], shapes[j], places[i][near], places[j][near])
-        row[closed[near]] = _clearances(
-            shapes[i], shapes[j], moved, slack, 0.0 if is_joined else within, is_joined, still
-        )
+        pair = _ShapePair(shapes[i], shapes[j], slack, is_joined)
+        row[closed[near]] = _clearances(pair, moved, 0.0 if is_joined else within, still)
         if is_joined or np.any(row <= within):
             pairs.append(names)
             joined.append(is_joined)
@@ -236,7 +235,7 @@ def _misfits(mechanism: Mechanism) -> dict[frozenset[str], dict[tuple[tuple[str,
     return found
 
 
-def _slack(one: Shape, other: Shape, misfits: dict, least: float) -> Slack:
+def _slack(one: ClashShape, other: ClashShape, misfits: dict, least: float) -> Slack:
     """Say by how much the triangles of two shapes may overlap, and which of them are in contact by design."""
     shapes = {one.part.name: one, other.part.name: other}
     numbers = {name: {face.name: k for k, face in enumerate(shape.part.faces)} for name, shape in shapes.items()}
@@ -252,15 +251,27 @@ def _slack(one: Shape, other: Shape, misfits: dict, least: float) -> Slack:
     return Slack(least, first, second, ignored)
 
 
-def _clearances(
-    one: Shape, other: Shape, moved: Displaced, slack: Slack, within: float, joined: bool, still: float
-) -> Float[np.ndarray, " poses"]:
-    """Measure the clearance of two shapes at each displacement."""
+class _ShapePair(NamedTuple):
+    """Two shapes that may clash."""
+
+    one: ClashShape
+    other: ClashShape
+    slack: Slack
+    joined: bool
+    """Whether faces of theirs are in contact by design."""
+
+
+def _clearances(pair: _ShapePair, moved: Displaced, within: float, still: float) -> Float[np.ndarray, " poses"]:
+    """Measure the clearance of two shapes at each displacement; infinite beyond `within`.
+
+    Faces that all displacements of joined shapes leave in place, to `still`, may touch.
+    """
+    one, other, slack, joined = pair
     count = len(moved.shift)
     reach = max(1.0, float(np.abs(moved.shift).max()))
     change = max(np.ptp(moved.rotation, axis=0).max(), np.ptp(moved.shift, axis=0).max() / reach)
     if count > 1 and change <= _AT_REST:
-        return np.repeat(_clearances(one, other, moved.at(np.array([0])), slack, within, joined, still), count)
+        return np.repeat(_clearances(pair, moved.at(np.array([0])), within, still), count)
     if joined and not len(crossings(one.tree, other.tree, moved.at(np.array([0])), slack).pose):
         slack = slack._replace(ignored=slack.ignored | invariant(one, other, moved, still))
     crossed = crossings(one.tree, other.tree, moved, slack)

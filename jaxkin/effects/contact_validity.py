@@ -18,7 +18,7 @@ from jaxkin._arguments import check_known, check_motion
 from jaxkin._grouped import MAX_LINES
 from jaxkin.assembly.kept_contacts import kept_contacts
 from jaxkin.contacts.contact import Contact
-from jaxkin.contacts.separation import Displacements, Gaps
+from jaxkin.contacts.separation import FaceDisplacements, Gaps
 from jaxkin.contacts.whole_face import is_whole, share_region
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.part import Face
@@ -154,7 +154,7 @@ def contact_validity(motion: Motion) -> ContactValidity:
     return ContactValidity(tuple(joints), tuple(contacts), gaps, mechanism.unit, tuple(unchecked))
 
 
-def _gaps(joint: Joint, contact: Contact, moved: Displacements, setting: FaceSetting) -> Gaps:
+def _gaps(joint: Joint, contact: Contact, moved: FaceDisplacements, setting: FaceSetting) -> Gaps:
     """Measure the gaps of one contact over the displacements of part 2 of its joint."""
     cheap = gaps_of(joint, contact, moved, setting)
     gaps = np.where(cheap > setting.length, cheap, 0.0)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -14,7 +15,7 @@ IN_THE_WAY = 1e-6
 """Depth, over the size of a profile, from which on something is in the way: far above rounding, and below what can be
 made."""
 
-Poses = Float[np.ndarray, " poses"]
+PerPose = Float[np.ndarray, " poses"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,18 +30,18 @@ class CurveContact:
     """What follows the curve: "a point", "a roller", "a flat face", "a curve", "a ball"."""
     of: str
     """What is followed: "curve", or "surface along u" and "surface along v", a contact for each."""
-    parameter: Poses
+    parameter: PerPose
     """How far the contact is along the curve from the first of its points."""
-    curvature: Poses
+    curvature: PerPose
     """Curvature of the profile at the contact, over one length: positive where it bends away from what follows it. Of a
     surface the least of its two principal curvatures."""
-    clearance: Poses
+    clearance: PerPose
     """1 + radius times curvature of a roller, the sum of both curvatures, times the size of the profile, of a curve:
     negative where the profile is undercut, where it bends towards what follows it more than that is bent itself. Of
     a flat face curvature times size; 1 for a point."""
-    depth: Poses
+    depth: PerPose
     """How deep what follows would have to pass through the profile or surface, anywhere; 0 where it need not."""
-    beyond: Poses
+    beyond: PerPose
     """How far the contact is beyond an end of an open curve; 0 on the curve, and of closed ones."""
 
     @property
@@ -115,23 +116,31 @@ class CurveContacts:
         return names, np.array([getattr(each, field) for each in self.contacts for field in fields])
 
 
-def made_contact(
-    joint: str,
-    what: str,
-    of: str,
-    place: tuple[Poses, float, bool],
-    numbers: tuple[Poses, Poses, Poses],
-    size: float,
-) -> CurveContact:
-    """Make a contact from what is known of it at each pose.
+class CurvePlace(NamedTuple):
+    """Where a contact is on its curve, or along a coordinate of its surface."""
 
-    `place` is the coordinate from the first of the points, NaN where the pose is not closed, the whole length of the
-    curve or surface, and whether that is closed; `numbers` are curvature, clearance and depth; `size` that of the
-    profile.
-    """
+    s: PerPose
+    """From the first of the points; NaN where the pose is not closed."""
+    whole: float
+    """The length of the curve or surface."""
+    closed: bool
+
+
+class CurveFit(NamedTuple):
+    """How a curve and what follows it fit together: fields of `CurveContact`, before rounding is taken for zero."""
+
+    curvature: PerPose
+    clearance: PerPose
+    depth: PerPose
+    size: float
+    """Of the profile."""
+
+
+def made_contact(joint: str, what: str, of: str, place: CurvePlace, fit: CurveFit) -> CurveContact:
+    """Make a contact from what is known of it at each pose; other arguments are fields of `CurveContact`."""
     s, whole, closed = place
     finite = np.isfinite(s)
-    curvature, clearance, depth = numbers
+    curvature, clearance, depth, size = fit
     beyond = np.zeros(len(s)) if closed else np.maximum(np.maximum(-s, s - whole), 0.0)
     kept = (
         np.mod(s, whole) if closed else s,

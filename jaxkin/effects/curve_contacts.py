@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from jaxkin._arguments import check_known, check_motion
-from jaxkin.effects.curve_contact import CurveContact, CurveContacts, Poses, made_contact
+from jaxkin.effects.curve_contact import CurveContact, CurveContacts, CurveFit, CurvePlace, PerPose, made_contact
 from jaxkin.effects.surface_contact import contacts_on_surface
 from jaxkin.geometry.curves import CurvePoint, Spline, sampled_pieces
 from jaxkin.geometry.movements import MOVEMENTS
@@ -85,7 +85,7 @@ def _of_joint(joint: Joint, q: Float[np.ndarray, "poses freedoms"]) -> list[Curv
         clearance = 1.0 - height * bend
     else:
         what, side, clearance = "a point", -1.0, np.ones(len(q))
-    return [_contact(joint.name, what, spline, q[:, 0], -side * bend, clearance, depth, size)]
+    return [_contact(joint.name, what, spline, q[:, 0], CurveFit(-side * bend, clearance, depth, size))]
 
 
 def _of_two(joint: Joint, one: Spline, other: Spline, q: Float[np.ndarray, "poses freedoms"]) -> list[CurveContact]:
@@ -114,17 +114,18 @@ def _of_two(joint: Joint, one: Spline, other: Spline, q: Float[np.ndarray, "pose
         area = float(np.sum(curve[:, 0] * np.roll(curve[:, 1], -1) - curve[:, 1] * np.roll(curve[:, 0], -1)))
         side = np.sign(area) * (1.0 if inside else -1.0)  # +1 where the second part is to the left of the first curve
     clearance = side * (bends[1] - bends[0]) * size if side else np.ones(len(q))
-    shared = _contact(joint.name, "a curve", one, q[:, 0], -(side or 1.0) * bends[0], clearance, depth, size)
-    own = _contact(joint.name, "a curve", other, q[:, 1], (side or 1.0) * bends[1], np.ones(len(q)), 0 * depth, size)
-    return [shared, own]
+    shared = CurveFit(-(side or 1.0) * bends[0], clearance, depth, size)
+    own = CurveFit((side or 1.0) * bends[1], np.ones(len(q)), 0 * depth, size)
+    return [
+        _contact(joint.name, "a curve", one, q[:, 0], shared),
+        _contact(joint.name, "a curve", other, q[:, 1], own),
+    ]
 
 
-def _contact(
-    joint: str, what: str, spline: Spline, q: Poses, curvature: Poses, clearance: Poses, depth: Poses, size: float
-) -> CurveContact:
-    """Make the contact of a curve at displacements `q`: where it is on the curve, counted from the first point."""
-    place = float(spline.start) + q, float(spline.knots[-1]), spline.closed
-    return made_contact(joint, what, "curve", place, (curvature, clearance, depth), size)
+def _contact(joint: str, what: str, spline: Spline, q: PerPose, fit: CurveFit) -> CurveContact:
+    """Make the contact of a curve at displacements `q`, which are counted from its place in the assembled pose."""
+    place = CurvePlace(float(spline.start) + q, float(spline.knots[-1]), spline.closed)
+    return made_contact(joint, what, "curve", place, fit)
 
 
 def _sampled(spline: Spline) -> Float[np.ndarray, "samples 2"]:

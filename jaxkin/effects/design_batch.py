@@ -34,7 +34,7 @@ DEVICE_POSES = 100_000
 
 
 @dataclass(frozen=True)
-class Measured:
+class DesignMeasure:
     """What is measured, and of which designs: static to JAX."""
 
     measure: Callable[..., Any]
@@ -95,7 +95,7 @@ def _one_number(value: Any) -> Float[Array, ""]:
 
 
 @partial(jax.jit, static_argnums=0)
-def value_and_slopes(measured: Measured, mechanism: Mechanism, driven: tuple, design: Float[Array, " numbers"]):
+def value_and_slopes(measured: DesignMeasure, mechanism: Mechanism, driven: tuple, design: Float[Array, " numbers"]):
     """Evaluate one design: value, whether it is reached, and the derivatives of the value by its numbers."""
 
     def twice(numbers):
@@ -107,12 +107,12 @@ def value_and_slopes(measured: Measured, mechanism: Mechanism, driven: tuple, de
 
 
 @partial(jax.jit, static_argnums=0)
-def _batch(measured: Measured, mechanism: Mechanism, driven: tuple, designs: Float[Array, "designs numbers"]):
+def _batch(measured: DesignMeasure, mechanism: Mechanism, driven: tuple, designs: Float[Array, "designs numbers"]):
     return jax.vmap(measured, (None, None, 0))(mechanism, driven, designs)
 
 
 def evaluate(
-    measured: Measured,
+    measured: DesignMeasure,
     mechanism: Mechanism,
     driven: tuple[Any, ...],
     designs: Float[np.ndarray, "designs numbers"],

@@ -34,8 +34,6 @@ RANK = 1e-9
 the solver (`linkage.first_order.RANK_TOLERANCE`), which is that of J J^T: the exact pose is to be found nearer to
 singular poses than the solver gets, and J itself is known to 1e-14."""
 
-Row = Float[np.ndarray, " columns"]
-
 
 class Extended:
     """The loops of a loop group in fifty digits. Raises ImportError where mpmath is not installed."""
@@ -53,7 +51,7 @@ class Extended:
         self.joints = {index: mechanism.all_joints[index] for index in loop_group.joints}
         self.loops = closed_loops(mechanism.linkage, loop_group)
 
-    def closed(self, q: Row) -> tuple[Row, bool]:
+    def closed(self, q: Float[np.ndarray, " columns"]) -> tuple[Float[np.ndarray, " columns"], bool]:
         """Find the exact pose near `q` with the same driven coordinates; returns it rounded, and whether it converged.
 
         `q` is in radians and lengths of the mechanism; where freedoms are idle, the nearest such pose is found. Frames
@@ -73,17 +71,17 @@ class Extended:
                 return np.array([float(value) for value in exact]), True
         return np.array([float(value) for value in exact]), False
 
-    def idle(self, q: Row) -> Float[np.ndarray, "columns columns"]:
+    def idle(self, q: Float[np.ndarray, " columns"]) -> Float[np.ndarray, "columns columns"]:
         """Compute the projector onto the idle freedoms of a pose, which have no exact value."""
         jacobian = self._jacobian(q)
         _, values, directions = np.linalg.svd(jacobian)
         kept = directions[: int((values > RANK * values[0]).sum())]
         return np.eye(len(q)) - kept.T @ kept
 
-    def _step(self, q: Row, misfit: np.ndarray) -> Row:
+    def _step(self, q: Float[np.ndarray, " columns"], misfit: np.ndarray) -> Float[np.ndarray, " columns"]:
         return np.linalg.pinv(self._jacobian(q), rcond=RANK) @ misfit
 
-    def _jacobian(self, q: Row) -> Float[np.ndarray, "equations columns"]:
+    def _jacobian(self, q: Float[np.ndarray, " columns"]) -> Float[np.ndarray, "equations columns"]:
         """Compute the Jacobian of `_misfit` in float64, by radians and lengths of the mechanism.
 
         Columns that are not free are zero.

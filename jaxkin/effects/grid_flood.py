@@ -14,7 +14,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Float, Int
 
-from jaxkin.effects.grid_steps import SHORT_STEPS, GridSteps, Inputs, Steps, neighbours
+from jaxkin.effects.grid_steps import SHORT_STEPS, GridSteps, NodeInputs, StepResults, neighbours
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.trig import TURN
 from jaxkin.mechanism.drive_plan import DrivenLoopGroup
@@ -35,7 +35,7 @@ class Flooded(NamedTuple):
 def flood(
     loop_groups: Sequence[DrivenLoopGroup],
     options: SolverOptions,
-    inputs: Inputs,
+    inputs: NodeInputs,
     shape: tuple[int, int],
     max_residual: float,
 ) -> Flooded:
@@ -142,7 +142,7 @@ class _Front:
         unknown = ~self.known[end]
         return newest[which[unknown]], end[unknown]
 
-    def _keep(self, nodes: np.ndarray, found: Steps, chosen: np.ndarray) -> None:
+    def _keep(self, nodes: np.ndarray, found: StepResults, chosen: np.ndarray) -> None:
         """Keep the poses `chosen` of those `found` as the poses of `nodes`, which are known from then on."""
         for own, state in zip(self.states, found.states, strict=True):
             for part, new in zip(own, state, strict=True):

@@ -31,7 +31,7 @@ from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, difference, drive, retract
 
-Inputs = Float[np.ndarray, "driven nodes"]
+NodeInputs = Float[np.ndarray, "driven nodes"]
 
 BATCH = 128
 """Steps that are taken together: a front on a grid of some thousand nodes has about as many."""
@@ -43,13 +43,24 @@ SLACK = 1e-12
 """Deviation from a prediction that is always accepted, radians or characteristic lengths: rounding."""
 
 
-class Steps(NamedTuple):
+class StepResults(NamedTuple):
     """What became of a batch of steps."""
 
     states: tuple[State, ...]
     taken: Bool[Array, " steps"]
     residual: Float[Array, " steps"]
     stationary: Bool[Array, " steps"]
+
+
+class _Leg(NamedTuple):
+    """The inputs from which and to which steps lead, for each loop group those that drive it, and how."""
+
+    begin: tuple[Float[Array, "driven steps"], ...]
+    end: tuple[Float[Array, "driven steps"], ...]
+    count: int | Array
+    """Steps in all."""
+    to_end: bool | Array
+    """Whether loops are closed also behind a step that is not taken."""
 
 
 def neighbours(
@@ -74,7 +85,7 @@ class GridSteps:
         self.systems = tuple(loop_group.system for loop_group in loop_groups)
         self.joints = tuple(loop_group.joints for loop_group in loop_groups)
 
-    def follow(self, states: Sequence[Sequence[np.ndarray]], begin: Inputs, end: Inputs) -> Steps:
+    def follow(self, states: Sequence[Sequence[np.ndarray]], begin: NodeInputs, end: NodeInputs) -> StepResults:
         """Step from poses to others, once more in shorter steps where the first is not taken."""
         found = self.walk(states, begin, end, 1)
         for count, most in ((SHORT_STEPS, np.inf), (SHORTEST_STEPS, self.max_residual)):
@@ -86,8 +97,13 @@ class GridSteps:
         return found
 
     def walk(
-        self, states: Sequence[Sequence[np.ndarray]], begin: Inputs, end: Inputs, count: int, to_end: bool = True
-    ) -> Steps:
+        self,
+        states: Sequence[Sequence[np.ndarray]],
+        begin: NodeInputs,
+        end: NodeInputs,
+        count: int,
+        to_end: bool = True,
+    ) -> StepResults:
         """Walk from poses to others in `count` steps each, a batch at a time.
 
         Unless `to_end`, loops are not closed any more behind a step that is not taken: their residual tells nothing.
@@ -96,17 +112,17 @@ class GridSteps:
         for first in range(0, size, BATCH):
             which = np.minimum(np.arange(first, first + BATCH), size - 1)
             chosen = tuple(State(*(jnp.asarray(part[..., which]) for part in state)) for state in states)
-            rows = [
+            ends = [
                 tuple(jnp.asarray(each[np.array(e.inputs)][:, which]) for e in self.loop_groups)
                 for each in (begin, end)
             ]
-            program = partial(_walk, self.systems, self.options.of_program, self.joints)
-            found = program(chosen, *rows, count, to_end, self.max_residual)
+            leg = _Leg(ends[0], ends[1], count, to_end)
+            found = _walk(self.systems, self.options.of_program, self.joints, chosen, leg, self.max_residual)
             parts.append(jax.tree.map(np.asarray, found))
         return jax.tree.map(lambda *each: np.concatenate(each, axis=-1)[..., :size], *parts)
 
 
-def _merged(found: Steps, again: Steps, failed: np.ndarray) -> Steps:
+def _merged(found: StepResults, again: StepResults, failed: np.ndarray) -> StepResults:
     """Replace the steps that failed by those that were tried again."""
 
     def put(one: np.ndarray, other: np.ndarray) -> np.ndarray:
@@ -123,32 +139,29 @@ def _walk(
     options: SolverOptions,
     joints: tuple[Joints, ...],
     states: tuple[State, ...],
-    begin: tuple[Float[Array, "driven steps"], ...],
-    end: tuple[Float[Array, "driven steps"], ...],
-    count: int | Array,
-    to_end: bool | Array,
+    leg: _Leg,
     max_residual: float | Array,
-) -> Steps:
-    """Move the inputs of closed poses from `begin` to `end` in so many steps; all loop groups have to follow."""
+) -> StepResults:
+    """Move the inputs of closed poses along a leg; all loop groups have to follow."""
     size = states[0].x.shape[-1]
     yes, zero = jnp.ones(size, bool), jnp.zeros(size)
     taken, square, stationary, found = yes, zero, yes, []
-    for system, numbers, state, one, other in zip(systems, joints, states, begin, end, strict=True):
+    for system, numbers, state, one, other in zip(systems, joints, states, leg.begin, leg.end, strict=True):
         geometry, lengths = scaled_geometry(system, numbers)
         own = lengths[np.array(system.driven, int)]
         problem = ClosureProblem(system, geometry, options)
 
         def step(number, carry, system=system, geometry=geometry, problem=problem, ends=(one / own, other / own)):
-            """Move the inputs by step `number` of `count`, and close the loops there."""
+            """Move the inputs by step `number` of `leg.count`, and close the loops there."""
             state, taken, *_ = carry
             # shorter towards both ends, where a limit may be near: coordinates change as the root of the distance to it
-            done, then = (0.5 - 0.5 * jnp.cos(jnp.pi * k / count) for k in (number, number + 1))
+            done, then = (0.5 - 0.5 * jnp.cos(jnp.pi * k / leg.count) for k in (number, number + 1))
             direction = (then - done) * (ends[1] - ends[0])
             before = closure(system, geometry, state)
             slope = input_slopes(system, state, before, direction)
             predicted = drive(system, retract(system, state, slope), ends[0] + then * (ends[1] - ends[0]))
             target = rounding_residual(state.x.dtype, CLOSED_ROUNDINGS)
-            most = jnp.where(taken | to_end, options.rescue_steps, 0)
+            most = jnp.where(taken | leg.to_end, options.rescue_steps, 0)
             there = levenberg_marquardt(problem, predicted, most, target)
             travel = difference(predicted, state)
             ratio = determinant_ratio(before.jacobian, there.closure.jacobian, equation_blocks(system))
@@ -156,7 +169,7 @@ def _walk(
             good &= difference(there.state, predicted) <= MAX_DEVIATION * travel + SLACK
             return there.state, taken & good, there.residual_norm, there.stationary
 
-        state, taken, residual, still = lax.fori_loop(0, count, step, (state, taken, zero, yes))
+        state, taken, residual, still = lax.fori_loop(0, leg.count, step, (state, taken, zero, yes))
         square, stationary = square + residual**2, stationary & still
         found.append(state)
-    return Steps(tuple(found), taken, jnp.sqrt(square), stationary)
+    return StepResults(tuple(found), taken, jnp.sqrt(square), stationary)

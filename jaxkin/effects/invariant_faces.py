@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Bool
 
-from jaxkin.effects.clash_shapes import Shape
+from jaxkin.effects.clash_shapes import ClashShape
 from jaxkin.geometry.displaced import Displaced
 
 SAME_PLACE = 1e-2
@@ -17,7 +17,7 @@ SAME_PLACE = 1e-2
 exactly, and nothing that is told depends on so little."""
 
 
-def invariant(one: Shape, other: Shape, moved: Displaced, length: float) -> Bool[np.ndarray, "labels labels"]:
+def invariant(one: ClashShape, other: ClashShape, moved: Displaced, length: float) -> Bool[np.ndarray, "labels labels"]:
     """Mark the pairs of faces of which the motion of shape 2 relative to shape 1 maps one onto itself.
 
     These are whole cylinders, cones and balls, whose axis or centre stays within a length of where it is at the first
@@ -27,7 +27,7 @@ def invariant(one: Shape, other: Shape, moved: Displaced, length: float) -> Bool
     return first[:, None] | second
 
 
-def _of_second(shape: Shape, moved: Displaced, length: float) -> Bool[np.ndarray, " labels"]:
+def _of_second(shape: ClashShape, moved: Displaced, length: float) -> Bool[np.ndarray, " labels"]:
     """Mark the faces of shape 2, displaced relative to shape 1, that all displacements leave where the first does."""
     found = np.zeros(len(shape.bulges), bool)
     for label, points in shape.axis_points.items():

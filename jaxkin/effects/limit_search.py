@@ -15,7 +15,7 @@ from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.trig import TURN
 from jaxkin.joints.joint import Joint, JointCoordinate
-from jaxkin.linkage.host_closure import Row
+from jaxkin.linkage.host_closure import LoopCoordinates
 from jaxkin.mobility.infeasible_drive import infeasible_drive, undriven_freedoms
 
 if TYPE_CHECKING:
@@ -169,7 +169,9 @@ def _crossed(curve: MotionCurve, here: CurvePose, there: CurvePose, length: floa
     return s if event.value(extremum) < 0 else None
 
 
-def _periods_within(ranges: Sequence[CoordinateRange], advance: Row, lowest: Row, highest: Row) -> int | None:
+def _periods_within(
+    ranges: Sequence[CoordinateRange], advance: LoopCoordinates, lowest: LoopCoordinates, highest: LoopCoordinates
+) -> int | None:
     """Count the periods after the first one that surely stay within all ranges; None where all periods do.
 
     `advance` is by how much the coordinates have turned on in the first period, in which they were between `lowest`

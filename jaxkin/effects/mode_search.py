@@ -18,7 +18,7 @@ from jaxtyping import Array, Float, Int
 
 from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.movements import MOVEMENTS
-from jaxkin.linkage.host_closure import ClosedLoops, Row
+from jaxkin.linkage.host_closure import ClosedLoops, LoopCoordinates
 from jaxkin.linkage.start_ranges import start_ranges
 from jaxkin.mechanism.drive_plan import DrivenLoopGroup
 from jaxkin.solve.closed_form.assembled_axes import assembled_axes
@@ -88,7 +88,7 @@ class PoseFeatures:
         """Take the loops, with how many idle freedoms they have."""
         self.loops, self.idle = loops, idle
 
-    def at(self, q: Row) -> Float[np.ndarray, " entries"]:
+    def at(self, q: LoopCoordinates) -> Float[np.ndarray, " entries"]:
         """Compute the entries at scaled coordinates: twelve a frame, lengths over the characteristic length."""
         places, rows = self.loops.travel(q).places, []
         for index, each in self.loops.chains.items():
@@ -118,7 +118,7 @@ def find_modes(
     loop_group: DrivenLoopGroup,
     features: PoseFeatures,
     inputs: Float[np.ndarray, " driven"],
-    reached: tuple[Row, float] | None,
+    reached: tuple[LoopCoordinates, float] | None,
     starts: Starts,
     max_residual: float,
 ) -> FoundPoses:

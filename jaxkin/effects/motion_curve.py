@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.linkage.host_closure import ClosedLoops, Row
+from jaxkin.linkage.host_closure import ClosedLoops, LoopCoordinates
 from jaxkin.solve.continuation.step import CROSSING
 
 LONGEST_STEP = 0.2
@@ -39,9 +39,9 @@ RELATIVE = 1e-15
 class CurvePose(NamedTuple):
     """A closed pose on the curve, with its tangent."""
 
-    q: Row
+    q: LoopCoordinates
     """Scaled coordinates of a closed pose."""
-    tangent: Row
+    tangent: LoopCoordinates
     """Unit tangent."""
     sigma: float
     """Smallest singular value of the closure Jacobian, without those that are zero all along the curve: zero where
@@ -56,7 +56,7 @@ class MotionCurve:
         self.loops, self.drive, self.held, self.idle = loops, drive, list(held), idle
         self.free = [k for k in range(len(loops.columns)) if k not in self.held]
 
-    def _freedoms(self, q: Row) -> tuple[Float[np.ndarray, "freedoms columns"], float]:
+    def _freedoms(self, q: LoopCoordinates) -> tuple[Float[np.ndarray, "freedoms columns"], float]:
         """Compute a basis of the rates that keep the loops closed, and `CurvePose.sigma`.
 
         There are as many rates as idle freedoms and one more; where branches cross there are further ones.
@@ -70,7 +70,7 @@ class MotionCurve:
         found[:, self.free] = basis
         return found, float(values[rank - 1]) if rank else np.inf
 
-    def begin(self, direction: float, start: Row | None = None) -> CurvePose | None:
+    def begin(self, direction: float, start: LoopCoordinates | None = None) -> CurvePose | None:
         """Find the tangent at a closed pose, by default the assembled one, along which the drive rises or falls.
 
         It rises where `direction` is 1, and falls where that is -1.

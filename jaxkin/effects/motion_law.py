@@ -26,7 +26,7 @@ from jaxkin._traced import traced
 from jaxkin.effects.pose_plot import save_rows
 from jaxkin.solve.execution.compiler import whole_program
 
-Law = Callable[[Array], Array]
+TimeLaw = Callable[[Array], Array]
 DWELL = "dwell"
 
 
@@ -38,7 +38,7 @@ def _cycloidal(u: Array) -> Array:
     return u - jnp.sin(2 * jnp.pi * u) / (2 * jnp.pi)
 
 
-def _polynomial(*coefficients: float) -> Law:
+def _polynomial(*coefficients: float) -> TimeLaw:
     return lambda u: jnp.polyval(jnp.array(coefficients), u)
 
 
@@ -82,7 +82,7 @@ def _s_curve(u: Array) -> Array:
     return jnp.where(u < 0.5, half(u), 1 - half(1 - u))
 
 
-LAWS: dict[str, Law] = {
+LAWS: dict[str, TimeLaw] = {
     DWELL: jnp.zeros_like,
     "constant speed": lambda u: u,
     "harmonic": _harmonic,

@@ -10,14 +10,14 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float, Int
 
-from jaxkin.effects.clash_shapes import Shape
+from jaxkin.effects.clash_shapes import ClashShape
 from jaxkin.geometry.displaced import Displaced
 from jaxkin.geometry.tree_crossings import Crossings, Slack
 from jaxkin.geometry.triangle_distance import edge_places
 
 
 def depths(
-    one: Shape, other: Shape, displaced: Displaced, crossed: Crossings, slack: Slack
+    one: ClashShape, other: ClashShape, displaced: Displaced, crossed: Crossings, slack: Slack
 ) -> Float[np.ndarray, " poses"]:
     """Measure the depth at each displacement, a length; 0 where no point is deeper than the slack of where it is."""
     back = displaced.inverse()
@@ -30,7 +30,7 @@ def depths(
 
 
 def _of_first(
-    one: Shape, other: Shape, displaced: Displaced, back: Displaced, crossed: Crossings, slack: Slack
+    one: ClashShape, other: ClashShape, displaced: Displaced, back: Displaced, crossed: Crossings, slack: Slack
 ) -> Float[np.ndarray, " poses"]:
     """Measure how deep points of shape 1, which is displaced relative to shape 2, are in shape 2."""
     count = len(displaced.shift)
@@ -52,7 +52,7 @@ def _of_first(
 
 
 def _middles_of_edges(
-    one: Shape, other: Shape, back: Displaced, crossed: Crossings
+    one: ClashShape, other: ClashShape, back: Displaced, crossed: Crossings
 ) -> tuple[Float[np.ndarray, "_ 3"], Int[np.ndarray, " _"], Int[np.ndarray, " _"]]:
     """Find the middles of the pieces into which triangles of shape 2 cut edges of shape 1.
 

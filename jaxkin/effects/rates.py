@@ -27,7 +27,7 @@ from jaxkin.joints.joint import Joint
 from jaxkin.linkage.coordinates import resolve
 from jaxkin.linkage.joint_motion import transforms
 from jaxkin.mechanism.collect import nan_where_not_finite
-from jaxkin.mechanism.known_motion import Inputs, KnownDrive, KnownMotion, Rows, derivatives, follow, known_motion
+from jaxkin.mechanism.known_motion import Inputs, JointRates, KnownDrive, KnownMotion, derivatives, follow, known_motion
 from jaxkin.mechanism.motion import Motion, as_point
 from jaxkin.mechanism.singularity import singular_report
 from jaxkin.solve.execution.compiler import whole_program
@@ -51,7 +51,7 @@ class Rates:
     motion: Motion
     inputs: Inputs
     """The given rates of the driven displacements."""
-    orders: tuple[Rows, ...]
+    orders: tuple[JointRates, ...]
     """Rates of the displacements of all joints: velocities first, those of this order last."""
 
     @property
@@ -194,7 +194,7 @@ def _rates(motion: Motion, *given: Inputs) -> Rates:
 
 
 @partial(whole_program, static=(0,))
-def _joint_rates(drive: KnownDrive, known: KnownMotion, inputs: tuple[Inputs, ...]) -> tuple[Rows, ...]:
+def _joint_rates(drive: KnownDrive, known: KnownMotion, inputs: tuple[Inputs, ...]) -> tuple[JointRates, ...]:
     """Compute the rates of all joints by order; NaN at NONFINITE poses, and where a given rate is not finite.
 
     `inputs` are displacements and rates of the driven coordinates, by order.
@@ -207,7 +207,7 @@ def _joint_rates(drive: KnownDrive, known: KnownMotion, inputs: tuple[Inputs, ..
 
 @partial(whole_program, static=(0,))
 def _part_rates(
-    structure: Structure, joints: tuple[Joint, ...], orders: tuple[Rows, ...]
+    structure: Structure, joints: tuple[Joint, ...], orders: tuple[JointRates, ...]
 ) -> tuple[tuple[Float[Array, "poses 4 4"], ...], ...]:
     """Differentiate the transforms of all parts, by order; NaN where the rate of any joint is not finite.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float, Int
 
-from jaxkin.effects.clash_shapes import Shape
+from jaxkin.effects.clash_shapes import ClashShape
 from jaxkin.geometry.displaced import Displaced
 from jaxkin.geometry.tree_crossings import Slack
 from jaxkin.geometry.triangle_distance import Points
@@ -17,7 +17,9 @@ _AT_ONCE = 1 << 20
 """Places of points that are held at once, some 100 MB."""
 
 
-def sampled_depths(one: Shape, other: Shape, displaced: Displaced, slack: Slack) -> Float[np.ndarray, "2 poses"]:
+def sampled_depths(
+    one: ClashShape, other: ClashShape, displaced: Displaced, slack: Slack
+) -> Float[np.ndarray, "2 poses"]:
     """Measure the depth at each displacement of points of the surfaces, and of points amid the solids, in two rows.
 
     It is 0 where no point is deeper than the slack of where it is.
@@ -29,7 +31,7 @@ def sampled_depths(one: Shape, other: Shape, displaced: Displaced, slack: Slack)
     )
 
 
-def _of_first(one: Shape, other: Shape, displaced: Displaced, slack: Slack) -> Float[np.ndarray, "2 poses"]:
+def _of_first(one: ClashShape, other: ClashShape, displaced: Displaced, slack: Slack) -> Float[np.ndarray, "2 poses"]:
     """Measure how deep points of the surface of shape 1, which is displaced, and points amid it are in shape 2."""
     surface, cores = one.surface_points, one.core_points
     points = np.concatenate([surface.points, cores])
@@ -51,7 +53,7 @@ def _of_first(one: Shape, other: Shape, displaced: Displaced, slack: Slack) -> F
 
 
 def _inside(
-    points: Points, allowed: Float[np.ndarray, " points"], displaced: Displaced, other: Shape, slack: np.ndarray
+    points: Points, allowed: Float[np.ndarray, " points"], displaced: Displaced, other: ClashShape, slack: np.ndarray
 ) -> tuple[Int[np.ndarray, " _"], Int[np.ndarray, " _"], Float[np.ndarray, " _"]]:
     """Find where displaced points are deeper in a shape, whose triangles have slacks, than what is allowed.
 

@@ -10,7 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float, Int
 
-from jaxkin.effects.grid_steps import GridSteps, Inputs, neighbours
+from jaxkin.effects.grid_steps import GridSteps, NodeInputs, neighbours
 from jaxkin.effects.mode_search import SAME_POSE, SAME_POSE_SINGLE
 from jaxkin.mechanism.motion import Motion
 from jaxkin.solve.closure.closure import scaled_geometry
@@ -26,7 +26,7 @@ before memory is full."""
 class Sheets:
     """The poses that were found, in the order in which they were, and which of them a step connects."""
 
-    def __init__(self, steps: GridSteps, inputs: Inputs, shape: tuple[int, int]) -> None:
+    def __init__(self, steps: GridSteps, inputs: NodeInputs, shape: tuple[int, int]) -> None:
         self.steps, self.inputs, self.shape = steps, inputs, shape
         self.node: list[int] = []
         """The node of each pose."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.effects.curve_contact import CurveContact, Poses, made_contact
+from jaxkin.effects.curve_contact import CurveContact, CurveFit, CurvePlace, PerPose, made_contact
 from jaxkin.geometry.curves import sampled_pieces
 from jaxkin.geometry.patches import BicubicSpline
 from jaxkin.joints.patch_contact import SAMPLES
@@ -37,16 +37,19 @@ def contacts_on_surface(
         place = spline.at(*at)
         depth = abs(height) - np.asarray(KDTree(points).query(np.stack([place.x, place.y, place.z], axis=1))[0])
     what = "a ball" if height else "a point"
-    none = np.zeros(len(q)), np.ones(len(q)), np.zeros(len(q))
+    fits = {
+        "u": CurveFit(-towards, clearance, depth, size),
+        "v": CurveFit(np.zeros(len(q)), np.ones(len(q)), np.zeros(len(q)), size),
+    }
     contacts = []
-    for k, (label, numbers) in enumerate((("u", (-towards, clearance, depth)), ("v", none))):
+    for k, (label, fit) in enumerate(fits.items()):
         s = np.where(finite, q[:, k], np.nan) + float(spline.start[k])
-        place = s, float(spline.knots[k][-1]), spline.closed[k]
-        contacts.append(made_contact(joint, what, f"surface along {label}", place, numbers, size))
+        place = CurvePlace(s, float(spline.knots[k][-1]), spline.closed[k])
+        contacts.append(made_contact(joint, what, f"surface along {label}", place, fit))
     return contacts
 
 
-def _principal(spline: BicubicSpline, at: Float[np.ndarray, "2 poses"]) -> tuple[Poses, Poses]:
+def _principal(spline: BicubicSpline, at: Float[np.ndarray, "2 poses"]) -> tuple[PerPose, PerPose]:
     """Compute the principal curvatures, least first, positive where the surface bends towards its normal u x v."""
     found = spline.derivatives(*at)
     u, v, uu, uv, vv = (np.stack(each) for each in found[1:])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
 import jax.numpy as jnp
@@ -12,7 +13,7 @@ from jaxtyping import Float
 from jaxkin._arguments import by_name, check_mechanism, whole_number
 from jaxkin._traced import traced
 from jaxkin.dimensions.lengths import find_length, lengths_now
-from jaxkin.effects.design_batch import Measured, evaluate, value_and_slopes
+from jaxkin.effects.design_batch import DesignMeasure, evaluate, value_and_slopes
 from jaxkin.effects.pin_play import directions_of_play
 from jaxkin.effects.tolerance import Tolerance, as_tolerance, named
 from jaxkin.effects.tolerance_result import Tolerances
@@ -77,7 +78,7 @@ def tolerances(
     nominal = _nominal(mechanism, stated)
     limits = _limits_of(wanted)
     directions = {name: directions_of_play(mechanism.linkage, name) for name in played}
-    measured = Measured(
+    measured = DesignMeasure(
         measure,
         tuple(stated),
         tuple(directions.items()),
@@ -110,20 +111,21 @@ def tolerances(
     if not on_host:
         return found
     poses = 1 if measured.one_pose or not driven else len(driven[0])
-    return _sampled(found, measured, mechanism, driven, np.asarray(start), poses, samples, seed)
+    evaluated = partial(evaluate, measured, mechanism, driven, poses=poses)
+    return _sampled(found, evaluated, np.asarray(start), samples, seed)
 
 
 def _sampled(
     found: Tolerances,
-    measured: Measured,
-    mechanism: Mechanism,
-    driven: tuple[Any, ...],
+    evaluated: Callable[[Float[np.ndarray, "designs numbers"]], tuple[np.ndarray, np.ndarray]],
     start: Float[np.ndarray, " numbers"],
-    poses: int,
     samples: int,
     seed: int,
 ) -> Tolerances:
-    """Evaluate the two designs of the worst case, small changes of each length alone, and those drawn at random."""
+    """Evaluate the two designs of the worst case, small changes of each length alone, and those drawn at random.
+
+    `evaluated` is `design_batch.evaluate` of designs.
+    """
     worst = found.worst_deviations()
     alone = np.diag(SMALL * np.repeat([each.limit for each in found.stated], found.dimensions))
     drawn = np.zeros((0, len(start)))
@@ -133,9 +135,7 @@ def _sampled(
             [each.drawn(random, samples, size) for each, size in zip(found.stated, found.dimensions, strict=True)],
             axis=1,
         )
-    values, reached = evaluate(
-        measured, mechanism, driven, start + np.concatenate([-worst[None], worst[None], alone, drawn]), poses
-    )
+    values, reached = evaluated(start + np.concatenate([-worst[None], worst[None], alone, drawn]))
     rows = np.repeat(np.arange(len(found.keys)), found.dimensions)
     closes = reached[2 : 2 + len(alone)]
     if not closes.all():

@@ -28,7 +28,7 @@ from jaxkin.mechanism.drive_plan import DrivePlan, plan_drive
 from jaxkin.mechanism.joint_limits import beyond_as_assembled, with_limited
 from jaxkin.mechanism.motion import Motion, as_point
 from jaxkin.solve.options import SolverOptions, options_with
-from jaxkin.solve.range.poses import Poses
+from jaxkin.solve.range.poses import RangePoses
 from jaxkin.solve.range.solve_range import displacements
 from jaxkin.solve.status import Status, default_tolerance
 from jaxkin.solve.system.joints import Joints
@@ -235,7 +235,7 @@ def _evaluate_nodes(
         tuple(loop_group.inputs for loop_group in plan.loop_groups),
         part,
     )
-    poses = tuple(Poses(state, jnp.asarray(found.status), jnp.asarray(found.residual)) for state in found.states)
+    poses = tuple(RangePoses(state, jnp.asarray(found.status), jnp.asarray(found.residual)) for state in found.states)
     joints = tuple(loop_group.joints for loop_group in plan.loop_groups)
     return _evaluate(layout, linkage, joints, jnp.asarray(nodes), poses, point)
 
@@ -257,7 +257,7 @@ def _evaluate(
     linkage: Linkage,
     joints: tuple[Joints, ...],
     inputs: Float[Array, "driven poses"],
-    poses: tuple[Poses, ...],
+    poses: tuple[RangePoses, ...],
     point: Float[Array, "3"],
 ) -> EvaluatedPoses:
     """Compute the displacements of all joints, where a point is, and its derivatives by the first two inputs."""

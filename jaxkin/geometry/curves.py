@@ -19,8 +19,6 @@ from jaxtyping import Array, Float
 
 from jaxkin._pytree import register_leaves
 
-Given = Array | np.ndarray
-
 ROUNDING = 1e-12
 """Distance over the size of a curve, and angle, that are rounding: some thousand roundings of float64, since the points
 of a curve may lie far from the origin of their axes."""
@@ -31,11 +29,11 @@ class Curve:
     """A curve of a joint, in the unit of the mechanism. A pytree: all but `closed` are leaves, each of which may have
     the axis of a batch of designs."""
 
-    points: Float[Given, "... points 2"]
+    points: Float[Array | np.ndarray, "... points 2"]
     """The points that the curve passes, in the axes in which they were given."""
-    start: Float[Given, "..."]
+    start: Float[Array | np.ndarray, "..."]
     """Where the contact of the assembled pose is: number of the point before it, and the fraction of the chord."""
-    place: Float[Given, "... 3"]
+    place: Float[Array | np.ndarray, "... 3"]
     """Pose (x, y, angle) of the axes of the points in the frame of the joint: at the contact, x along the tangent."""
     closed: bool
     """Whether the last point is joined to the first one."""
@@ -101,11 +99,11 @@ class CurvePoint(NamedTuple):
 class Spline:
     """A curve as cubic pieces, in the frame of the joint. A pytree: all but `closed` are leaves."""
 
-    knots: Float[Given, " knots"]
+    knots: Float[Array | np.ndarray, " knots"]
     """Length of the chords up to each point; a closed curve ends with its first point."""
-    table: Float[Given, "4 pieces 2"]
+    table: Float[Array | np.ndarray, "4 pieces 2"]
     """Coefficients of the powers 0 to 3 of the parameter behind the beginning of each piece."""
-    start: Float[Given, ""]
+    start: Float[Array | np.ndarray, ""]
     """Parameter of the contact in the assembled pose, from which `at` counts."""
     closed: bool
 
@@ -121,7 +119,7 @@ class Spline:
         size = float(np.abs(self.table[0]).max()) + float(self.knots[-1])
         return bool(max(abs(at.x) / size, abs(at.y) / size, abs(at.sin)) <= ROUNDING and at.cos > 0)
 
-    def at(self, q: Float[Given | float, "*poses"], xp: Any = np) -> CurvePoint:
+    def at(self, q: Float[Array | np.ndarray | float, "*poses"], xp: Any = np) -> CurvePoint:
         """Evaluate the curve at parameters counted from the assembled pose.
 
         A closed curve repeats. Beyond the ends of an open one its first and last cubic go on.

@@ -15,7 +15,7 @@ import numpy as np
 
 from jaxkin.geometry.patches import FollowedPoint
 
-Law = Literal["x", "y", "z", "x_v", "y_v", "z_v", "turn"]
+FollowedLaw = Literal["x", "y", "z", "x_v", "y_v", "z_v", "turn"]
 """A function of what a joint follows: a coordinate of the point there, or the angle of the tangent. `_v` are those of
 the second coordinate of a surface."""
 
@@ -31,7 +31,7 @@ class ElementaryMotion:
     coordinate: int
     """Index of the coordinate in `Movement.coordinates` that is the angle or length of the motion. Several motions may
     have the same coordinate."""
-    law: Law | None = None
+    law: FollowedLaw | None = None
     """Which function of the curve or the surface the motion follows; None where q itself is its angle or length."""
     sense: Literal[1, -1] = 1
     """-1 where the motion is the inverse of what `law` says."""
@@ -65,7 +65,7 @@ def rates(element: ElementaryMotion, pitch: Any, point: FollowedPoint | None) ->
     return advance, 0.0 if element.kind == "translate" else 1.0
 
 
-def law_length(law: Law, point: FollowedPoint | None) -> Any:
+def law_length(law: FollowedLaw, point: FollowedPoint | None) -> Any:
     """Look up the length that a law other than "turn" says."""
     return 0.0 if law.endswith("_v") else _of(law, point)
 
@@ -75,7 +75,7 @@ def law_turn(point: FollowedPoint | None) -> tuple[Any, Any]:
     return _of("cos", point), _of("sin", point)
 
 
-def law_rate(law: Law, point: FollowedPoint | None) -> Any:
+def law_rate(law: FollowedLaw, point: FollowedPoint | None) -> Any:
     """Look up the derivative of the length, or the angle, of a law with respect to its coordinate."""
     return _of("turning" if law == "turn" else f"d{law}", point)
 

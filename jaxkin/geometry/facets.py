@@ -40,7 +40,7 @@ Such a set belongs to the surface but for small triangles of the next face that 
 _MAX_PLANE_FITS = 8
 """Largest number of times that triangles off the mean plane are left out and the mean plane is computed anew."""
 
-Rows = Int[np.ndarray, "_"]
+TriangleIndices = Int[np.ndarray, "_"]
 """Indices of triangles."""
 
 
@@ -70,11 +70,11 @@ class Facets:
         """Number of facets."""
         return int(self.facet_of.max(initial=-1)) + 1
 
-    def angles(self, one: Rows, other: Rows) -> Float[np.ndarray, "_"]:
+    def angles(self, one: TriangleIndices, other: TriangleIndices) -> Float[np.ndarray, "_"]:
         """Compute the angles between the normals of triangles, pair by pair, 0 to pi."""
         return _angles(self.normals[one], self.normals[other])
 
-    def corner_normals(self, rows: Rows) -> Float[np.ndarray, "_ 3 3"]:
+    def corner_normals(self, rows: TriangleIndices) -> Float[np.ndarray, "_ 3 3"]:
         """Estimate the normals of the true surface at the three corners of each of the triangles `rows`.
 
         A normal is the mean of those of all triangles in `rows` that meet at the corner, weighted by their angles
@@ -125,7 +125,7 @@ def facets(points: Points, triangles: np.ndarray, pairs: Int[np.ndarray, "_ 2"],
     return Facets(points, triangles, tolerance, normals, double / 2, label, pairs, pairs[smooth])
 
 
-def _leaders(triangles: np.ndarray, pairs: np.ndarray, edges: np.ndarray, sliver: np.ndarray) -> Rows:
+def _leaders(triangles: np.ndarray, pairs: np.ndarray, edges: np.ndarray, sliver: np.ndarray) -> TriangleIndices:
     """Find for each triangle the one whose normal it gets (triangles,): itself, unless it is a sliver.
 
     A sliver gets the normal of the neighbour across its longest edge; if that is a sliver too, of the neighbour across
@@ -145,7 +145,9 @@ def _leaders(triangles: np.ndarray, pairs: np.ndarray, edges: np.ndarray, sliver
     return leader
 
 
-def _off_plane(label: Rows, normals: Points, corners: np.ndarray, weights: np.ndarray, tolerance: float) -> np.ndarray:
+def _off_plane(
+    label: TriangleIndices, normals: Points, corners: np.ndarray, weights: np.ndarray, tolerance: float
+) -> np.ndarray:
     """Mark the triangles that are in no plane with their group: each of them is a facet of its own.
 
     `label` (triangles,) numbers the groups, `corners` are (triangles, 3, 3), `weights` are proportional to areas. A
@@ -167,7 +169,7 @@ def _off_plane(label: Rows, normals: Points, corners: np.ndarray, weights: np.nd
     return marked | strip[label]
 
 
-def _heights(label: Rows, normals: Points, corners: np.ndarray, weights: np.ndarray) -> np.ndarray:
+def _heights(label: TriangleIndices, normals: Points, corners: np.ndarray, weights: np.ndarray) -> np.ndarray:
     """Compute for each triangle the largest distance of its corners from the mean plane of its group (triangles,)."""
     total = np.bincount(label, weights)
     normal = np.stack([np.bincount(label, weights * n) for n in normals.T], axis=-1)

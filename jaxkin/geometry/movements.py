@@ -18,7 +18,7 @@ from typing import Literal, NamedTuple
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from jaxkin.geometry.elementary_motions import ElementaryMotion, Law, amount, displaced_columns, displaced_point
+from jaxkin.geometry.elementary_motions import ElementaryMotion, FollowedLaw, amount, displaced_columns, displaced_point
 from jaxkin.geometry.figures import ROD, BallFigure, BoxFigure, CylinderFigure, Figure
 from jaxkin.geometry.patches import Followed
 from jaxkin.geometry.rigid import Rigid
@@ -126,7 +126,7 @@ _ALONG_CURVE = (
 )
 """The elementary motions of a frame that travels along a curve, with its x axis along the tangent."""
 
-_SURFACE_LAWS: tuple[tuple[Law, ...], ...] = (("x", "y", "z"), ("x_v", "y_v", "z_v"))
+_SURFACE_LAWS: tuple[tuple[FollowedLaw, ...], ...] = (("x", "y", "z"), ("x_v", "y_v", "z_v"))
 """For u and for v the laws of the slides along x, y and z."""
 _OVER_SURFACE = tuple(
     ElementaryMotion("translate", axis, coordinate, law=law)

@@ -13,10 +13,10 @@ from typing import Any, NamedTuple
 
 import jax
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Array, Float
 
 from jaxkin._pytree import register_leaves
-from jaxkin.geometry.curves import ROUNDING, Curve, CurvePoint, Given, Spline, length_at, number_at, slopes_at_knots
+from jaxkin.geometry.curves import ROUNDING, Curve, CurvePoint, Spline, length_at, number_at, slopes_at_knots
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,14 +24,14 @@ class Patch:
     """A surface of a joint, in the unit of the mechanism. A pytree: all but `closed` are leaves, each of which may have
     the axis of a batch of designs."""
 
-    points: Float[Given, "... m n 3"]
+    points: Float[Array | np.ndarray, "... m n 3"]
     """The points that the surface passes, in the axes in which they were given: u along the first axis of the array."""
-    start: Float[Given, "... 2"]
+    start: Float[Array | np.ndarray, "... 2"]
     """Where the contact of the assembled pose is, along u and v: number of the point before it, and the fraction of the
     chord."""
-    place: Float[Given, "... 3"]
+    place: Float[Array | np.ndarray, "... 3"]
     """Origin of the axes of the points in the frame of the joint, which has the same directions."""
-    height: Float[Given, "..."] | float | None
+    height: Float[Array | np.ndarray, "..."] | float | None
     """How far what follows is from the surface along its normal, the direction of u x v; None for a point on it."""
     closed: tuple[bool, bool]
     """Whether the last row of points is joined to the first one, along u and along v."""
@@ -107,14 +107,14 @@ class PatchDerivatives(NamedTuple):
 class BicubicSpline:
     """A surface as bicubic pieces, in the frame of the joint. A pytree: all but `closed` are leaves."""
 
-    knots_u: Float[Given, " knots_u"]
+    knots_u: Float[Array | np.ndarray, " knots_u"]
     """Mean length of the chords up to each row of points; a closed one ends with its first row."""
-    knots_v: Float[Given, " knots_v"]
-    table: Float[Given, "4 4 pieces_u pieces_v 3"]
+    knots_v: Float[Array | np.ndarray, " knots_v"]
+    table: Float[Array | np.ndarray, "4 4 pieces_u pieces_v 3"]
     """Coefficients of the powers 0 to 3 of u, then of v, behind the beginning of each piece."""
-    start: Float[Given, "2"]
+    start: Float[Array | np.ndarray, "2"]
     """Coordinates of the contact in the assembled pose, from which `at` counts."""
-    height: Float[Given, ""] | float | None
+    height: Float[Array | np.ndarray, ""] | float | None
     closed: tuple[bool, bool]
 
     @property

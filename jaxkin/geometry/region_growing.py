@@ -15,7 +15,7 @@ from itertools import combinations, product
 import numpy as np
 
 from jaxkin.geometry.components import components, grouped
-from jaxkin.geometry.facets import FACET_SHARE, Facets, Rows
+from jaxkin.geometry.facets import FACET_SHARE, Facets, TriangleIndices
 from jaxkin.geometry.surfaces import Plane, Surface
 from jaxkin.geometry.tessellation_test import CHORD_ANGLE, MAX_WIDTH_RATIO, arcs, on, surface_of
 from jaxkin.geometry.torus import Torus
@@ -73,12 +73,12 @@ Neighbouring facets of one free-form face are taken to differ less."""
 
 
 @dataclass(frozen=True, eq=False)
-class Region:
+class MeshRegion:
     """Triangles that make up one face."""
 
     surface: Surface | Torus | None
     """The surface that the corners of the triangles lie on; None for a free-form face."""
-    rows: Rows
+    rows: TriangleIndices
     """Indices of the triangles in `Facets.triangles`, rising."""
 
     @property
@@ -94,7 +94,7 @@ class RegionGrowing:
     it belongs to no face.
     """
 
-    def __init__(self, mesh: Facets, rows: Rows) -> None:
+    def __init__(self, mesh: Facets, rows: TriangleIndices) -> None:
         self.mesh = mesh
         self.rows = rows  # (n,) indices into mesh.triangles
         number = np.full(len(mesh.triangles), -1)
@@ -127,7 +127,7 @@ class RegionGrowing:
             self.neighbours[a].append(b)
             self.neighbours[b].append(a)
 
-    def regions(self) -> list[Region]:
+    def regions(self) -> list[MeshRegion]:
         """Divide all triangles into faces, each triangle in exactly one region."""
         found = []
         order = np.argsort(-self.area, kind="stable")  # large facets first: rounding of corners tilts them least
@@ -160,11 +160,11 @@ class RegionGrowing:
         """Check that the areas of facets differ by less than the factor `_MAX_AREA_RATIO`."""
         return bool(self.area[facets].max() < _MAX_AREA_RATIO * self.area[facets].min())
 
-    def _triangles(self, facets: list[int] | np.ndarray) -> Rows:
+    def _triangles(self, facets: list[int] | np.ndarray) -> TriangleIndices:
         """Collect the triangles of some facets, as rising indices into `Facets.triangles`."""
         return self.rows[np.sort(np.concatenate([self.members[k] for k in facets]))]
 
-    def _grown(self, seed: list[int], within: float) -> Region | None:
+    def _grown(self, seed: list[int], within: float) -> MeshRegion | None:
         """Grow a face from the facets `seed`; None where no curved surface fits the seed.
 
         `within`, a length, is the largest distance of corners from the fitted surface. While the region grows, corners
@@ -200,7 +200,7 @@ class RegionGrowing:
             return None
         self.failures = 0
         self.free &= ~taken
-        return Region(surface, rows)
+        return MeshRegion(surface, rows)
 
     def _split_off(self, on_surface: np.ndarray) -> int:
         """Make triangles off the surface facets of their own where nearly all of their facet is on the surface.
@@ -237,7 +237,7 @@ class RegionGrowing:
         usual = half_arcs.min() if len(half_arcs) == 3 else np.median(half_arcs)
         return bool(half_arcs.max() <= MAX_WIDTH_RATIO * usual)
 
-    def _flat_and_free_form(self) -> list[Region]:
+    def _flat_and_free_form(self) -> list[MeshRegion]:
         """Divide the facets that are still free into flat faces, one facet each, and connected free-form faces."""
         found = []
         free_form = self.free.copy()
@@ -247,9 +247,9 @@ class RegionGrowing:
             if free_form[k] and (not near or self.area[k] > _FLAT_FACE_RATIO * np.max(self.area[near])):
                 rows = self._triangles([k])
                 found.append(
-                    Region(surface_of(self.mesh, rows, LOOSE_TOLERANCE * self.mesh.tolerance, one_facet=True), rows)
+                    MeshRegion(surface_of(self.mesh, rows, LOOSE_TOLERANCE * self.mesh.tolerance, one_facet=True), rows)
                 )
                 free_form[k] = False
         label = components(self.count, self.pairs[np.all(free_form[self.pairs], axis=1)])
         left = np.flatnonzero(free_form)
-        return found + [Region(None, self._triangles(left[group])) for group in grouped(label[left]) if len(group)]
+        return found + [MeshRegion(None, self._triangles(left[group])) for group in grouped(label[left]) if len(group)]

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from jaxkin.geometry.facets import Facets, Rows
-from jaxkin.geometry.region_growing import LOOSE_TOLERANCE, TIGHT_TOLERANCE, Region
+from jaxkin.geometry.facets import Facets, TriangleIndices
+from jaxkin.geometry.region_growing import LOOSE_TOLERANCE, TIGHT_TOLERANCE, MeshRegion
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.geometry.tessellation_test import arcs, on, surface_of
 
@@ -34,19 +34,19 @@ _MAX_UNION_TRIALS = 1000
 Bounds the time that free-form faces take, on which many small regions are found by chance."""
 
 
-def rough_tolerance(mesh: Facets, rows: Rows) -> float:
+def rough_tolerance(mesh: Facets, rows: TriangleIndices) -> float:
     """Return how far corners of the triangles `rows` may lie from their surface, a length, where a face ends there."""
     extent = float(np.linalg.norm(np.ptp(mesh.points[mesh.triangles[rows]].reshape(-1, 3), axis=0)))
     return min(_ROUGH_TOLERANCE * mesh.tolerance, _MAX_ROUGHNESS * extent)
 
 
-def united(mesh: Facets, found: list[Region]) -> list[Region]:
+def united(mesh: Facets, found: list[MeshRegion]) -> list[MeshRegion]:
     """Unite neighbouring round regions to which one surface fits within `LOOSE_TOLERANCE`, the largest regions first.
 
     The surface of the union must be of the kind of the larger region: a piece of a torus, taken alone, may lie on a
     cone. Returns the regions, the united ones in the places of their largest members.
     """
-    rows: list[Rows] = [region.rows for region in found]
+    rows: list[TriangleIndices] = [region.rows for region in found]
     surfaces = [region.surface for region in found]
     owner = np.full(len(mesh.triangles), -1)
     for k, region in enumerate(found):
@@ -69,17 +69,17 @@ def united(mesh: Facets, found: list[Region]) -> list[Region]:
                 break
         else:
             kept = (k for k, region in enumerate(found) if not region.is_round or owner[region.rows[0]] == k)
-            return [Region(surfaces[k], rows[k]) for k in kept]
+            return [MeshRegion(surfaces[k], rows[k]) for k in kept]
 
 
-def absorbed(mesh: Facets, found: list[Region]) -> list[Region]:
+def absorbed(mesh: Facets, found: list[MeshRegion]) -> list[MeshRegion]:
     """Give the leftovers of a round face to it: small neighbouring regions that lie on its surface and are tangent.
 
     Such a region is free-form, a single triangle, of the kind of the face, or has up to `_FEW_CORNERS` corners. It is
     smaller than the face, and all its corners are within `rough_tolerance` of the surface. A facet that two round faces
     share, since they are tangent to each other in the middle of it, is divided between them.
     """
-    rows: list[Rows] = [region.rows for region in found]
+    rows: list[TriangleIndices] = [region.rows for region in found]
     owner = np.empty(len(mesh.triangles), int)
     for k, region in enumerate(found):
         owner[region.rows] = k
@@ -111,10 +111,10 @@ def absorbed(mesh: Facets, found: list[Region]) -> list[Region]:
                 for n in np.unique(share).tolist():
                     rows[n] = np.sort(np.concatenate([rows[n], rows[k][share == n]]))
                 owner[rows[k]], rows[k] = share, rows[k][:0]
-    return [Region(region.surface, rows[k]) for k, region in enumerate(found) if len(rows[k])]
+    return [MeshRegion(region.surface, rows[k]) for k, region in enumerate(found) if len(rows[k])]
 
 
-def _is_leftover(mesh: Facets, region: Region, kind: type) -> bool:
+def _is_leftover(mesh: Facets, region: MeshRegion, kind: type) -> bool:
     """Check whether a region may be a piece of a face of a given kind of surface."""
     few = len(np.unique(mesh.triangles[region.rows])) <= _FEW_CORNERS
     if isinstance(region.surface, Plane):

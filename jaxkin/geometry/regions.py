@@ -11,8 +11,8 @@ import numpy as np
 from jaxtyping import Bool
 
 from jaxkin.geometry.components import components, grouped
-from jaxkin.geometry.facets import SMOOTH_ANGLE, Facets, Rows
-from jaxkin.geometry.region_growing import LOOSE_TOLERANCE, TIGHT_TOLERANCE, Region, RegionGrowing
+from jaxkin.geometry.facets import SMOOTH_ANGLE, Facets, TriangleIndices
+from jaxkin.geometry.region_growing import LOOSE_TOLERANCE, TIGHT_TOLERANCE, MeshRegion, RegionGrowing
 from jaxkin.geometry.region_union import absorbed, rough_tolerance, united
 from jaxkin.geometry.surfaces import Plane, Surface
 from jaxkin.geometry.tessellation_test import MAX_FACET_CORNERS, MAX_WIDTH_RATIO, arcs, on, surface_of
@@ -51,9 +51,9 @@ _MAX_LEFTOVER = 4
 """Largest number of triangles of a region on no surface, each of which is then tried as part of a neighbouring face."""
 
 
-def regions(mesh: Facets) -> list[Region]:
+def regions(mesh: Facets) -> list[MeshRegion]:
     """Divide all triangles of a solid into faces, in the order of their first triangles."""
-    found: list[Region] = []
+    found: list[MeshRegion] = []
     _, first = np.unique(mesh.facet_of, return_index=True)
     within = np.stack([np.arange(len(mesh.triangles)), first[mesh.facet_of]], axis=-1)
     for rows in grouped(components(len(mesh.triangles), np.concatenate([mesh.smooth, within]))):
@@ -65,15 +65,15 @@ def regions(mesh: Facets) -> list[Region]:
     return sorted(found, key=lambda region: region.rows[0])
 
 
-def _named(mesh: Facets, region: Region) -> Region:
+def _named(mesh: Facets, region: MeshRegion) -> MeshRegion:
     """Fit a surface to a free-form region, which may have lost the triangles that were off its surface."""
     if region.surface is not None:
         return region
     surface = surface_of(mesh, region.rows, LOOSE_TOLERANCE * mesh.tolerance, torus=True, thorough=True)
-    return region if surface is None or isinstance(surface, Plane) else Region(surface, region.rows)
+    return region if surface is None or isinstance(surface, Plane) else MeshRegion(surface, region.rows)
 
 
-def _divided(mesh: Facets, rows: Rows, within: np.ndarray) -> list[Region]:
+def _divided(mesh: Facets, rows: TriangleIndices, within: np.ndarray) -> list[MeshRegion]:
     """Divide triangles that join smoothly into faces.
 
     One surface is fitted to all of them first, then to what is left of them when they are cut along edges of smaller
@@ -82,8 +82,8 @@ def _divided(mesh: Facets, rows: Rows, within: np.ndarray) -> list[Region]:
     one = bool(np.all(mesh.facet_of[rows] == mesh.facet_of[rows[0]]))
     surface = surface_of(mesh, rows, LOOSE_TOLERANCE * mesh.tolerance, one_facet=one, thorough=True)
     if surface is not None:
-        return [Region(surface, rows)]
-    found: list[Region] = []
+        return [MeshRegion(surface, rows)]
+    found: list[MeshRegion] = []
     i, j = mesh.smooth.T
     angles = mesh.angles(i, j)
     for angle in (np.inf, *_CREASE_ANGLES):
@@ -96,7 +96,7 @@ def _divided(mesh: Facets, rows: Rows, within: np.ndarray) -> list[Region]:
             if np.isinf(angle) or _is_bounded(mesh, rows[piece], angle):
                 surface = _rough_surface(mesh, rows[piece])
                 if surface is not None:
-                    found.append(Region(surface, rows[piece]))
+                    found.append(MeshRegion(surface, rows[piece]))
                     taken[piece] = True
         rows = rows[~taken]
         if not len(rows):
@@ -107,11 +107,13 @@ def _divided(mesh: Facets, rows: Rows, within: np.ndarray) -> list[Region]:
     for piece in grouped(components(len(rows), links[np.all(links >= 0, axis=1)])):
         one = bool(np.all(mesh.facet_of[rows[piece]] == mesh.facet_of[rows[piece[0]]]))
         surface = surface_of(mesh, rows[piece], LOOSE_TOLERANCE * mesh.tolerance, one_facet=one) if found else None
-        found += [Region(surface, rows[piece])] if surface is not None else RegionGrowing(mesh, rows[piece]).regions()
+        found += (
+            [MeshRegion(surface, rows[piece])] if surface is not None else RegionGrowing(mesh, rows[piece]).regions()
+        )
     return found
 
 
-def _rough_surface(mesh: Facets, rows: Rows) -> Surface | Torus | None:
+def _rough_surface(mesh: Facets, rows: TriangleIndices) -> Surface | Torus | None:
     """Find the round surface of triangles that are bounded by sharp edges, whose corners may be less exact."""
     points = mesh.points[np.unique(mesh.triangles[rows])]
     if len(points) < _MIN_ROUGH_CORNERS:
@@ -123,7 +125,7 @@ def _rough_surface(mesh: Facets, rows: Rows) -> Surface | Torus | None:
     return None
 
 
-def _is_bounded(mesh: Facets, rows: Rows, angle: float) -> bool:
+def _is_bounded(mesh: Facets, rows: TriangleIndices, angle: float) -> bool:
     """Check that most of the rim of some triangles, by length, is an edge of a face.
 
     Such an edge has an angle of `SMOOTH_ANGLE` or more, or more than `angle` (radians) with a flat face next to it: a
@@ -144,7 +146,7 @@ def _is_bounded(mesh: Facets, rows: Rows, angle: float) -> bool:
     return bool(lengths[sharp].sum() > _SHARP_SHARE * lengths.sum())
 
 
-def _without_flats(mesh: Facets, region: Region) -> list[Region]:
+def _without_flats(mesh: Facets, region: MeshRegion) -> list[MeshRegion]:
     """Split off a round face the flats that are cut into it; returns all pieces, the round one first.
 
     A flat is a facet with its corners on the surface that spans a far larger arc than other facets (`MAX_WIDTH_RATIO`).
@@ -158,24 +160,26 @@ def _without_flats(mesh: Facets, region: Region) -> list[Region]:
     # a facet of one triangle is no flat: meshers leave wide triangles along a jagged rim of the round face
     wide_ones = np.flatnonzero((np.bincount(facet) > 1) & (widths > MAX_WIDTH_RATIO * np.median(widths)))
     wide = [region.rows[facet == k] for k in wide_ones]
-    flats = [Region(surface_of(mesh, rows, LOOSE_TOLERANCE * mesh.tolerance, one_facet=True), rows) for rows in wide]
-    return [Region(region.surface, np.setdiff1d(region.rows, np.concatenate([[], *wide]))), *flats]
+    flats = [
+        MeshRegion(surface_of(mesh, rows, LOOSE_TOLERANCE * mesh.tolerance, one_facet=True), rows) for rows in wide
+    ]
+    return [MeshRegion(region.surface, np.setdiff1d(region.rows, np.concatenate([[], *wide]))), *flats]
 
 
-def _largest_bend(mesh: Facets, region: Region) -> float:
+def _largest_bend(mesh: Facets, region: MeshRegion) -> float:
     """Find the largest angle, radians, between neighbouring facets of a region."""
     inside = _within(mesh, region.rows)
     return float(mesh.angles(*mesh.smooth[inside].T).max(initial=0.0))
 
 
-def _within(mesh: Facets, rows: Rows) -> Bool[np.ndarray, "_"]:
+def _within(mesh: Facets, rows: TriangleIndices) -> Bool[np.ndarray, "_"]:
     """Mark the pairs of `Facets.smooth` both of whose triangles are among `rows`."""
     inside = np.zeros(len(mesh.triangles), bool)
     inside[rows] = True
     return np.all(inside[mesh.smooth], axis=1)
 
 
-def _flat_pieces(mesh: Facets, region: Region, bend: float) -> list[Region]:
+def _flat_pieces(mesh: Facets, region: MeshRegion, bend: float) -> list[MeshRegion]:
     """Split off a free-form region the flat faces that meet at angles so small that they could be one curved face.
 
     They are flat where the angle is more than a tessellation with bends of `bend` radians in its round faces leaves
@@ -199,11 +203,13 @@ def _flat_pieces(mesh: Facets, region: Region, bend: float) -> list[Region]:
     alone = (np.bincount(label)[label] <= 2) & (np.bincount(facet) > 1)
     planes = [region.rows[facet == k] for k in np.flatnonzero(alone)]
     rest = [region.rows[group] for group in grouped(np.where(alone, -1, label)[facet]) if not alone[facet[group[0]]]]
-    found = [Region(surface_of(mesh, rows, LOOSE_TOLERANCE * mesh.tolerance, one_facet=True), rows) for rows in planes]
-    return [*found, *(Region(None, rows) for rows in rest)]
+    found = [
+        MeshRegion(surface_of(mesh, rows, LOOSE_TOLERANCE * mesh.tolerance, one_facet=True), rows) for rows in planes
+    ]
+    return [*found, *(MeshRegion(None, rows) for rows in rest)]
 
 
-def _with_strays(mesh: Facets, found: list[Region]) -> list[Region]:
+def _with_strays(mesh: Facets, found: list[MeshRegion]) -> list[MeshRegion]:
     """Give lone triangles to neighbouring round faces on whose surface their corners lie.
 
     A triangle is lone if it is a facet by itself, or in a region of few triangles on no surface. Meshers leave such
@@ -232,5 +238,5 @@ def _with_strays(mesh: Facets, found: list[Region]) -> list[Region]:
     result = []
     for k, region in enumerate(found):
         rows = np.flatnonzero(owner == k) if region.is_round else region.rows[owner[region.rows] < 0]
-        result += [Region(region.surface, rows)] if len(rows) else []
+        result += [MeshRegion(region.surface, rows)] if len(rows) else []
     return result

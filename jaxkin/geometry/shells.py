@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.components import components, grouped
-from jaxkin.geometry.facets import Rows
+from jaxkin.geometry.facets import TriangleIndices
 from jaxkin.geometry.pose import Points
 from jaxkin.geometry.weld import Corners, Welded
 
@@ -111,12 +111,12 @@ def _distance(rim: Float[np.ndarray, "_ 2 3"], other: Float[np.ndarray, "_ 2 3"]
     return worst
 
 
-def shells(welded: Welded) -> list[Rows]:
+def shells(welded: Welded) -> list[TriangleIndices]:
     """Group the triangles that are connected through shared edges: returns the indices of each connected surface."""
     return grouped(components(len(welded.triangles), welded.pairs))
 
 
-def bodies(corners: Corners, surfaces: list[Rows]) -> list[Rows]:
+def bodies(corners: Corners, surfaces: list[TriangleIndices]) -> list[TriangleIndices]:
     """Join closed surfaces to solids: each outer surface with its cavities.
 
     `corners` are those of all triangles, `surfaces` the indices of the triangles of each closed surface. A surface that

@@ -10,7 +10,7 @@ from jaxtyping import Float
 from jaxkin.geometry.pose import Points
 from jaxkin.geometry.tooth_rows import DEPTH, ToothRow, row_of_teeth
 
-Side = Literal["outer", "inner"]
+ToothSide = Literal["outer", "inner"]
 Triangles = Float[np.ndarray, "triangles 3 3"]
 
 BINS = 4096
@@ -33,7 +33,7 @@ class Teeth(NamedTuple):
 
     number: int
     """Teeth on a full turn."""
-    side: Side
+    side: ToothSide
     """Whether the teeth stand out from a rim, or into a ring."""
     pitch_radius: float
     """Radius halfway between the tips and the roots: about that of the pitch circle."""
@@ -55,14 +55,14 @@ def find_teeth(triangles: Triangles, point: Points, axis: Points, between: tuple
     for height in section_heights(levels, between):
         cut = (lowest < height) & (height < highest)
         x, y = section(triangles[cut], point, axis, levels[cut] - height)
-        far: dict[Side, np.ndarray] = {side: _farthest(x, y, side) for side in ("outer", "inner")}
+        far: dict[ToothSide, np.ndarray] = {side: _farthest(x, y, side) for side in ("outer", "inner")}
         outer, inner = (_outline(far[side], side) for side in far)
         if outer is None or inner is None:
             found += [teeth for side in far if (teeth := _on_sector(far[side], side, height))]
             continue
         # a wheel without a bore has one outline, with the material inside; in bins on steep flanks its ends differ
         single = np.median(outer - inner) < 0.1 * np.ptp(outer)
-        outlines: dict[Side, np.ndarray] = {"outer": outer}
+        outlines: dict[ToothSide, np.ndarray] = {"outer": outer}
         if not single:
             outlines["inner"] = inner
         for side, radii in outlines.items():
@@ -113,7 +113,7 @@ def section(
     return (ends - point) @ e1, (ends - point) @ e2
 
 
-def _counted(radii: Float[np.ndarray, " bins"], side: Side, height: float) -> Teeth | None:
+def _counted(radii: Float[np.ndarray, " bins"], side: ToothSide, height: float) -> Teeth | None:
     """Count the teeth of an outline; None where it has none."""
     tip, root = np.quantile(radii, [0.99, 0.01])
     middle = (tip + root) / 2
@@ -128,7 +128,7 @@ def _counted(radii: Float[np.ndarray, " bins"], side: Side, height: float) -> Te
 
 
 def _farthest(
-    x: Float[np.ndarray, "segments 2"], y: Float[np.ndarray, "segments 2"], side: Side
+    x: Float[np.ndarray, "segments 2"], y: Float[np.ndarray, "segments 2"], side: ToothSide
 ) -> Float[np.ndarray, " bins"]:
     """Sample the largest distance (outer) of a section from the axis, or the smallest one (inner) times -1, by angle.
 
@@ -156,7 +156,7 @@ def along_segments(
     return tuple(each[segment, 0] + share * (each[segment, 1] - each[segment, 0]) for each in (x, y))
 
 
-def _outline(far: Float[np.ndarray, " bins"], side: Side) -> Float[np.ndarray, " bins"] | None:
+def _outline(far: Float[np.ndarray, " bins"], side: ToothSide) -> Float[np.ndarray, " bins"] | None:
     """Complete the distances of `_farthest` over a full turn; None where the axis is outside, or the section open."""
     known = np.flatnonzero(np.isfinite(far))
     if len(known) < BINS // 2 or np.diff(np.append(known, known[0] + BINS)).max() > BINS // (2 * MIN_TEETH):
@@ -164,7 +164,7 @@ def _outline(far: Float[np.ndarray, " bins"], side: Side) -> Float[np.ndarray, "
     return (1.0 if side == "outer" else -1.0) * np.interp(np.arange(BINS), known, far[known], period=BINS)
 
 
-def _on_sector(far: Float[np.ndarray, " bins"], side: Side, height: float) -> Teeth | None:
+def _on_sector(far: Float[np.ndarray, " bins"], side: ToothSide, height: float) -> Teeth | None:
     """Count the teeth of a sector, and how many a full turn would have, from their distance; None where it has none.
 
     A sector has a whole number of teeth on a full turn, since it is a piece of a wheel.

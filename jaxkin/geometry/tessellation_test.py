@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Bool, Float
 
-from jaxkin.geometry.facets import Facets, Rows
+from jaxkin.geometry.facets import Facets, TriangleIndices
 from jaxkin.geometry.fit import fit_surface, fit_torus
 from jaxkin.geometry.surfaces import Cone, Plane, Sphere, Surface
 from jaxkin.geometry.torus import Torus
@@ -41,7 +41,13 @@ _APEX_DISTANCE = 20
 
 
 def surface_of(
-    mesh: Facets, rows: Rows, tolerance: float, *, one_facet: bool = False, torus: bool = False, thorough: bool = False
+    mesh: Facets,
+    rows: TriangleIndices,
+    tolerance: float,
+    *,
+    one_facet: bool = False,
+    torus: bool = False,
+    thorough: bool = False,
 ) -> Surface | Torus | None:
     """Find the surface that the triangles `rows` are a tessellation of; None if there is none.
 
@@ -73,7 +79,9 @@ def surface_of(
     return None if isinstance(surface, Torus) and _rings(surface, corners[first], 4 * tolerance) < 4 else surface
 
 
-def on(mesh: Facets, surface: Surface | Torus, rows: Rows, tolerance: float, angle: float) -> Bool[np.ndarray, "_"]:
+def on(
+    mesh: Facets, surface: Surface | Torus, rows: TriangleIndices, tolerance: float, angle: float
+) -> Bool[np.ndarray, "_"]:
     """Mark the triangles `rows` that lie on a surface and are tangent to it.
 
     Their corners are within `tolerance` (a length) of the surface, and the angles there within `angle` (radians).
@@ -82,12 +90,12 @@ def on(mesh: Facets, surface: Surface | Torus, rows: Rows, tolerance: float, ang
     return near & tangent(mesh, surface, rows, angle)
 
 
-def tangent(mesh: Facets, surface: Surface | Torus, rows: Rows, angle: float) -> Bool[np.ndarray, "_"]:
+def tangent(mesh: Facets, surface: Surface | Torus, rows: TriangleIndices, angle: float) -> Bool[np.ndarray, "_"]:
     """Mark the triangles `rows` that are tangent to a surface at all their corners, within `angle` (radians)."""
     return arcs(mesh, surface, rows) < angle
 
 
-def arcs(mesh: Facets, surface: Surface | Torus, rows: Rows) -> Float[np.ndarray, "_"]:
+def arcs(mesh: Facets, surface: Surface | Torus, rows: TriangleIndices) -> Float[np.ndarray, "_"]:
     """Measure half the arc that each triangle spans: its largest angle (radians) to the surface at its corners."""
     corners = mesh.points[mesh.triangles[rows]]
     along = np.sum(surface.normals(corners) * mesh.normals[rows][:, None], axis=-1)
@@ -98,14 +106,14 @@ def arcs(mesh: Facets, surface: Surface | Torus, rows: Rows) -> Float[np.ndarray
     return np.arccos(np.clip(along.min(axis=1), -1.0, 1.0))
 
 
-def _corner_counts(mesh: Facets, rows: Rows) -> np.ndarray:
+def _corner_counts(mesh: Facets, rows: TriangleIndices) -> np.ndarray:
     """Count the corners of each facet of the triangles `rows`, in the order of the facets."""
     facet = np.repeat(mesh.facet_of[rows], 3)
     _, count = np.unique(np.unique(np.stack([facet, mesh.triangles[rows].ravel()]), axis=1)[0], return_counts=True)
     return count
 
 
-def _cut(mesh: Facets, surface: Sphere | Torus, rows: Rows, corners: np.ndarray) -> bool:
+def _cut(mesh: Facets, surface: Sphere | Torus, rows: TriangleIndices, corners: np.ndarray) -> bool:
     """Check whether a facet with many corners is a flat that is cut into the surface, since it lies too deep under it.
 
     `corners` holds the number of corners of each facet. Facets of triangles merged by rounding are less deep.

@@ -72,10 +72,8 @@ class TriangleTree:
     def signed_distances(self, points: Points) -> tuple[Float[np.ndarray, " _"], Int[np.ndarray, " _"]]:
         """Measure how far points are from the surface of the solid, and which of its triangles is nearest.
 
-        The distances are lengths, negative inside.
-
-        The nearest triangle tells the side; of several that are equally near, at an edge or a corner, the one over
-        whose plane the point is highest.
+        The distances are lengths, negative inside. The nearest triangle tells the side; of several that are equally
+        near, at an edge or a corner, the one over whose plane the point is highest.
         """
         found, nearest = np.zeros(len(points)), np.zeros(len(points), int)
         for start in range(0, len(points), _MAX_POINTS):
@@ -84,6 +82,11 @@ class TriangleTree:
         return found, nearest
 
     def _signed(self, points: Points) -> tuple[np.ndarray, np.ndarray]:
+        """Compute what `signed_distances` returns, for points at once.
+
+        A triangle whose centroid is near bounds each distance. Boxes nearer than that are split level by level, all
+        points together, down to single triangles, which are measured.
+        """
         which, node = np.arange(len(points)), np.zeros(len(points), int)
         guess = self._centroids.query(points)[1]
         level = _ROUNDING * float(np.abs(self.high - self.low).max())

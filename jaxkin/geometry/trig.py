@@ -15,7 +15,6 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-Numbers = Float[Array, "..."]
 TURN = 2 * math.pi
 """A full turn, radians."""
 HALF = (float.fromhex("0x1.921fb544p+1"), float.fromhex("0x1.0b4611a6p-33"), float.fromhex("0x1.3198a2e037073p-68"))
@@ -96,7 +95,7 @@ def _cos_sin_jvp(primals, tangents):
 
 
 @jax.custom_jvp
-def angle(sin: Numbers, cos: Numbers) -> Numbers:
+def angle(sin: Float[Array, "..."], cos: Float[Array, "..."]) -> Float[Array, "..."]:
     """Compute the angles in (-pi, pi], radians, at which vectors of any length have these components: atan2.
 
     Zero, with zero derivative, for vectors of length zero. Only float64 uses the polynomial; other precisions use the

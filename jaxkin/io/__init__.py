@@ -12,7 +12,7 @@
 | SDF | `sdf`, and the `sdf_...` | |
 | FreeCAD, its solver | `fcstd`, `fcstd_document`, `asmt`, `marker_joints`, `marker_ties` | `asmt_writer`, `asmt_ties` |
 | studies | `study`, `study_file` and the other `study_...`, `ranges`, `named_effects` | `study_writer` |
-| mechanisms | `mechanism_file` | `mechanism_file` |
+| mechanisms | `saved_mechanism` | `mechanism_file` |
 | motions | | `writers`, `tables`, `gltf`; of any length `long_motion` |
 
 Files of unknown origin are read within bounds: in processes of their own (`sandbox`, `guardian`, `time_limit`,

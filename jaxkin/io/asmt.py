@@ -18,7 +18,7 @@ from jaxkin._names import nearest
 from jaxkin.geometry.inertial import Inertial
 from jaxkin.geometry.pose import Transform, is_rigid
 from jaxkin.io.marker_joints import CHAINS, KINDS, Marker, MarkerJoints
-from jaxkin.io.marker_ties import GEAR, RACK, SCREW, TIES, Bodies, add_tie
+from jaxkin.io.marker_ties import GEAR, RACK, SCREW, TIES, MarkerTie, RigidGroups, add_tie
 from jaxkin.io.robot_inertials import inertial
 from jaxkin.io.robot_model import WORLD, RobotLink, RobotModel, numbers, placed
 
@@ -58,17 +58,17 @@ ROTATION = 1e-5
 
 
 @dataclass
-class Node:
+class AsmtNode:
     """A line of the file, with those below it that begin with more tabs."""
 
     text: str
     number: int
-    inner: list[Node] = field(default_factory=list)
+    inner: list[AsmtNode] = field(default_factory=list)
 
-    def find(self, key: str) -> Node | None:
+    def find(self, key: str) -> AsmtNode | None:
         return next((each for each in self.inner if each.text == key), None)
 
-    def every(self, *keys: str) -> Iterator[Node]:
+    def every(self, *keys: str) -> Iterator[AsmtNode]:
         """Yield what is inside of the elements along a path."""
         found = self
         for key in keys:
@@ -89,12 +89,12 @@ def read_asmt(path: Path) -> RobotModel:
     return _Reader(path.name, _tree(path)).model()
 
 
-def _tree(path: Path) -> Node:
+def _tree(path: Path) -> AsmtNode:
     """Read the assembly of a file as a tree."""
     with path.open(encoding="utf-8", errors="replace") as file:
         if file.readline().strip() not in FIRST_LINES:
             raise ValueError(f"{path.name}: expected an assembly of FreeCAD's solver, {FIRST_LINES[0]!r} in line 1")
-        root = Node("", 0)
+        root = AsmtNode("", 0)
         open_nodes = [root]
         for number, line in enumerate(file, start=2):
             text = line.strip("\t\r\n")
@@ -105,7 +105,7 @@ def _tree(path: Path) -> Node:
                 break  # the results of a simulation
             if not depth < min(MAX_DEEP, len(open_nodes)):
                 raise ValueError(f"{path.name}, line {number}: {text[:40]!r} begins with too many tabs")
-            node = Node(text, number)
+            node = AsmtNode(text, number)
             open_nodes[depth].inner.append(node)
             open_nodes[depth + 1 :] = [node]
     if (found := root.find("Assembly")) is None:
@@ -116,7 +116,7 @@ def _tree(path: Path) -> Node:
 class _Reader:
     """The parts and joints of one assembly."""
 
-    def __init__(self, file: str, root: Node) -> None:
+    def __init__(self, file: str, root: AsmtNode) -> None:
         self.file, self.root = file, root
         self.name = root.said("Name")
         self.made = MarkerJoints(file, {WORLD: RobotLink(WORLD, np.eye(4))})
@@ -141,11 +141,11 @@ class _Reader:
         for each in joints:
             self.sides[f"/{self.name}/{each.said('Name')}"] = each.said("MarkerI"), each.said("MarkerJ")
             self._joint(each)
-        bodies = Bodies.among(made, (WORLD,))
+        bodies = RigidGroups.among(made, (WORLD,))
         for each in sorted(joints, key=lambda joint: joint.text != SCREW):  # screws first: gears may turn them
             if each.text in TIES:
                 sizes = self._sizes(each, SIZES_OF[each.text])
-                add_tie(made, bodies, each.text, each.said("Name"), *self._ends(each), sizes, _called(each))
+                add_tie(made, bodies, MarkerTie(each.text, each.said("Name"), *self._ends(each), sizes, _called(each)))
         motors = [
             made.motor(self._target(each), MOTIONS.get(each.text), _called(each))
             for each in self.root.every("ConstraintSets", "Motions")
@@ -165,7 +165,7 @@ class _Reader:
             unit="",
         )
 
-    def _pose(self, node: Node) -> Transform:
+    def _pose(self, node: AsmtNode) -> Transform:
         where = f"{self.file}, line {node.number}: {node.text}"
         place = node.find("Position3D")
         point = numbers(node.said("Position3D"), 3, f"{where}: Position3D") if place else np.zeros(3)
@@ -176,7 +176,7 @@ class _Reader:
         left, _, right = np.linalg.svd(turn)
         return placed(turn if is_rigid(placed(turn, point)) else left @ right, point)
 
-    def _inertial(self, node: Node, name: str) -> Inertial | None:
+    def _inertial(self, node: AsmtNode, name: str) -> Inertial | None:
         """Read the mass of a part, its centre and its principal moments; None for the placeholder of unknown ones."""
         found = node.find("PrincipalMassMarker")
         if found is None or not found.said("Mass"):
@@ -188,13 +188,13 @@ class _Reader:
             return None
         return inertial(mass, self._pose(found), (*moments, 0.0, 0.0, 0.0), where, self.made.notes)
 
-    def _markers(self, node: Node, link: str, pose: Transform, path: str) -> None:
+    def _markers(self, node: AsmtNode, link: str, pose: Transform, path: str) -> None:
         for point in node.every("RefPoints"):
             for each in point.every("Markers"):
                 place = pose @ self._pose(point) @ self._pose(each)
                 self.markers[f"{path}/{each.said('Name')}"] = Marker(link, place)
 
-    def _joint(self, node: Node) -> None:
+    def _joint(self, node: AsmtNode) -> None:
         """Read a joint; what is none is added to the notes."""
         where = f"{self.file}: {_called(node)}"
         if node.text in NOT_KEPT:
@@ -205,7 +205,7 @@ class _Reader:
         elif node.text not in TIES:
             raise ValueError(f"{where}: expected one of {', '.join((*KINDS, *CHAINS, *TIES, *NOT_KEPT))}")
 
-    def _sizes(self, node: Node, names: Sequence[str]) -> dict[str, float]:
+    def _sizes(self, node: AsmtNode, names: Sequence[str]) -> dict[str, float]:
         """Read the sizes of a joint: of a tie those that it must have, of others those that are there."""
         where = f"{self.file}: {_called(node)}"
         said = {name: node.said(SIZES[name]) for name in names}
@@ -215,7 +215,7 @@ class _Reader:
             if text or node.text in TIES
         }
 
-    def _ends(self, node: Node) -> tuple[Marker, Marker]:
+    def _ends(self, node: AsmtNode) -> tuple[Marker, Marker]:
         paths = node.said("MarkerI"), node.said("MarkerJ")
         for path in paths:
             if path not in self.markers:
@@ -223,7 +223,7 @@ class _Reader:
                 raise ValueError(f"{self.file}: {_called(node)}: unknown marker {path!r}{known}")
         return self.markers[paths[0]], self.markers[paths[1]]
 
-    def _target(self, node: Node) -> str:
+    def _target(self, node: AsmtNode) -> str:
         """Find the joint that a motion or a limit is of: named, or between the same two markers."""
         path = node.said("MotionJoint")
         if path not in self.sides:
@@ -231,7 +231,7 @@ class _Reader:
             path = next((name for name, own in self.sides.items() if own == markers and all(own)), path)
         return path.removeprefix(f"/{self.name}/")
 
-    def _limit(self, node: Node) -> None:
+    def _limit(self, node: AsmtNode) -> None:
         """Add a limit to its joint; one that is of none, or not understood, is noted."""
         bound, side = evaluated(node.said("Limit")), node.said("Type")
         if bound is None or side not in ("=>", ">=", "=<", "<="):
@@ -241,7 +241,7 @@ class _Reader:
         self.made.limit(self._target(node), LIMITS.get(node.text), *ends, _called(node))
 
 
-def _called(node: Node) -> str:
+def _called(node: AsmtNode) -> str:
     """Call an element by its kind and name, for messages."""
     return f"{node.text} {node.said('Name')!r}"
 

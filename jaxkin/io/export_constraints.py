@@ -1,4 +1,4 @@
-"""Joints and mates of the exports of CAD systems, as constraints between two parts each."""
+"""Make constraints between two parts each of the joints and mates of the exports of CAD systems."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ PARALLEL_MATES = 1e-5
 mates to about 1e-6."""
 
 
-class Places:
+class ConstrainedParts:
     """The parts that joints and mates are on."""
 
     def __init__(self, export: Export, first: Paths, world: str | None) -> None:
@@ -69,7 +69,9 @@ class Places:
         return "it is not between two parts"
 
 
-def joints_between(joints: Iterable[ExportedJoint], where: Places, metres: float, notes: list[str]) -> list[Constraint]:
+def joints_between(
+    joints: Iterable[ExportedJoint], where: ConstrainedParts, metres: float, notes: list[str]
+) -> list[Constraint]:
     """Find the joints between parts; what is no joint that is known is added to the notes."""
     result = []
     for each in joints:
@@ -89,6 +91,7 @@ def joints_between(joints: Iterable[ExportedJoint], where: Places, metres: float
 
 
 def _unknown(kind: str) -> str:
+    """Say why a kind of joint is left out: it holds nothing, or is not known."""
     free = kind.lower().replace("-", "") in FREE
     return "it leaves all freedoms, and holds nothing" if free else "this kind is not known"
 
@@ -109,13 +112,19 @@ def _apart(movement: str, base: Transform, follower: Transform) -> tuple[float, 
 
 
 def mates_between(
-    mates: Iterable[ExportedMate], where: Places, metres: float, size: float, notes: list[str]
+    mates: Iterable[ExportedMate], where: ConstrainedParts, metres: float, size: float, notes: list[str]
 ) -> list[Constraint]:
     """Find the mates between parts of an assembly of a size; those that are not understood are added to the notes."""
     return [found for each in mates if (found := _mate(each, where, metres, PARALLEL_MATES * size, notes)) is not None]
 
 
-def _mate(each: ExportedMate, where: Places, metres: float, length: float, notes: list[str]) -> Constraint | None:
+def _mate(
+    each: ExportedMate, where: ConstrainedParts, metres: float, length: float, notes: list[str]
+) -> Constraint | None:
+    """Find what a mate between two parts leaves free; None, and a note, where it holds nothing or is not understood.
+
+    Features that differ by less than `length`, in the unit of the assembly, count as coincident.
+    """
     text = f"{each.kind} {each.name!r}"
     parts = where.parts(each.sides[0].path, each.sides[1].path)
     if parts is None:

@@ -6,7 +6,7 @@ from collections import defaultdict
 from collections.abc import Sequence
 
 from jaxkin._names import listed
-from jaxkin.io.export_constraints import PARALLEL_MATES, Paths, Places, joints_between, mates_between
+from jaxkin.io.export_constraints import PARALLEL_MATES, ConstrainedParts, Paths, joints_between, mates_between
 from jaxkin.io.simscape import Export
 from jaxkin.joints.combine import Chain, lower_pair
 from jaxkin.joints.kinds import JointKind
@@ -38,7 +38,7 @@ def fixed_parts(export: Export, first: Paths, metres: float, size: float, notes:
 
 def _held(export: Export, first: Paths, metres: float, size: float) -> list[str]:
     """List the parts that their joints and mates with the assembly itself leave no freedom."""
-    where = Places(export, first, WORLD)
+    where = ConstrainedParts(export, first, WORLD)
     joints = [each for each in export.joints if any(not side.path for side in each.sides)]
     mates = [each for each in export.mates if any(not side.path for side in each.sides)]
     chains: dict[str, list[Chain]] = defaultdict(list)

@@ -16,7 +16,7 @@ from jaxkin.assembly.exported import Exported
 from jaxkin.geometry.inertial import NONE
 from jaxkin.geometry.part import Part, moved, scaled
 from jaxkin.geometry.units import METRES
-from jaxkin.io.export_constraints import Paths, Places, in_unit, joints_between, mates_between
+from jaxkin.io.export_constraints import ConstrainedParts, Paths, in_unit, joints_between, mates_between
 from jaxkin.io.export_ground import fixed_parts
 from jaxkin.io.names import cleaned, unique
 from jaxkin.io.simscape import Export, ExportedPart, read_export
@@ -65,7 +65,7 @@ def read_exported(path: Path, root: Element, read_solids: Reader) -> tuple[tuple
     notes = list(export.notes)
     size = _extent(export) / metres
     fixed = fixed_parts(export, first, metres, size, notes)
-    where = Places(export, first, next(iter(fixed), None))
+    where = ConstrainedParts(export, first, next(iter(fixed), None))
     if folders := {str(file.parent) for file in files.values() if file.parent.resolve() != path.parent.resolve()}:
         notes.append(f"solids are not beside {path.name}, but in {', '.join(sorted(folders))}")
     constraints = [

@@ -14,7 +14,7 @@ import numpy as np
 from jaxkin.geometry.pose import Transform, unit
 from jaxkin.io.fcstd_document import Document, Item, Reference
 from jaxkin.io.marker_joints import Marker, MarkerJoints
-from jaxkin.io.marker_ties import GEAR, RACK, SCREW, SLIDES, TIES, Bodies, add_tie
+from jaxkin.io.marker_ties import GEAR, RACK, SCREW, SLIDES, TIES, MarkerTie, RigidGroups, add_tie
 from jaxkin.io.names import unique
 from jaxkin.io.robot_model import RobotLink, RobotModel, placed
 
@@ -104,7 +104,7 @@ class _Reader:
             elif "JointType" in each and (found := self._ends(each)) is not None:
                 ends[each.name] = found
                 self._joint(each, *found)
-        bodies = Bodies.among(made, fixed)
+        bodies = RigidGroups.among(made, fixed)
         ties = [items[name] for name in ends if self._kind(items[name]) in TIES]
         for each in sorted(ties, key=lambda tie: self._kind(tie) != SCREW):  # screws first: gears may turn them
             self._tie(each, bodies, *ends[each.name])
@@ -252,7 +252,7 @@ class _Reader:
         """Call a joint by its type and label."""
         return f"{joint.choice('JointType', TYPES)} {joint.label!r}"
 
-    def _tie(self, joint: Item, bodies: Bodies, one: Marker, other: Marker) -> None:
+    def _tie(self, joint: Item, bodies: RigidGroups, one: Marker, other: Marker) -> None:
         """Add what ties other joints: gears, belts, racks and screws."""
         kind, first, second = self._kind(joint) or "", joint.number("Distance"), joint.number("Distance2")
         sizes = {
@@ -264,7 +264,8 @@ class _Reader:
             if not any(bodies.carried(self.made, one.link, SLIDES, "z", one.pose[:3, 2])):
                 one, other = other, one
             one = _along_rack(one, other)
-        add_tie(self.made, bodies, kind, self.joints[joint.name], one, other, sizes, self._text(joint))
+        tie = MarkerTie(kind, self.joints[joint.name], one, other, sizes, self._text(joint))
+        add_tie(self.made, bodies, tie)
 
     def _motor(self, motion: Item) -> str | None:
         coordinate = MOTIONS.get(motion.choice("MotionType", tuple(MOTIONS)))

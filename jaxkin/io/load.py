@@ -14,9 +14,10 @@ from jaxkin.assembly.assembly import Assembly
 from jaxkin.geometry.part import Part, size
 from jaxkin.geometry.units import check_unit
 from jaxkin.io.exports import read_exported
-from jaxkin.io.mechanism_file import MECHANISM_SUFFIX, read_mechanism
+from jaxkin.io.mechanism_file import MECHANISM_SUFFIX
 from jaxkin.io.mesh import MESHES, read_mesh
 from jaxkin.io.robot_files import ROBOT_ROOTS, ROBOT_SUFFIXES, read_robot
+from jaxkin.io.saved_mechanism import read_mechanism
 from jaxkin.io.step import read_step
 from jaxkin.io.xml_tree import read_xml
 

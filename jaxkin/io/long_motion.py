@@ -15,7 +15,7 @@ from jaxkin.io.tables import poses_of, words_of
 from jaxkin.mechanism.joint_limits import Breach, breaches
 from jaxkin.mechanism.joint_limits import joined as limits_joined
 from jaxkin.mechanism.lost_contacts import LostContact, joined
-from jaxkin.mechanism.motion import largest_residuals, tally
+from jaxkin.mechanism.motion import Tally, largest_residuals, tell
 from jaxkin.solve.status import Status
 
 if TYPE_CHECKING:
@@ -60,4 +60,4 @@ def write_stream(stream: Stream, path: Path, step: Callable[[], None] = lambda: 
             for name, words in words_of(stream.mechanism).items():
                 with archive.open(f"{name}.npy", "w") as file:
                     np.lib.format.write_array(file, words)
-    return tally(stream.mechanism, stream.inputs, counts, largest, joined(lost), limits_joined(beyond))
+    return tell(Tally(counts, largest, joined(lost), limits_joined(beyond)), stream.mechanism, stream.inputs)

@@ -47,19 +47,19 @@ class _Carried(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Bodies:
+class RigidGroups:
     """The parts of a file that do not move against each other."""
 
     of: Mapping[str, frozenset[str]]
     """Part -> all parts of its body."""
 
     @staticmethod
-    def among(made: MarkerJoints, fixed: Collection[str]) -> Bodies:
+    def among(made: MarkerJoints, fixed: Collection[str]) -> RigidGroups:
         """Find what fixed joints hold together, and what is at rest."""
         rigid = [each.parts for each in made.joints.values() if each.kind is JointKind.FIXED]
         held = [(first, other) for first, other in product(tuple(fixed)[:1], tuple(fixed)[1:])]
         groups = connected(list(made.links), [*rigid, *held])
-        return Bodies({part: frozenset(group) for group in groups for part in group})
+        return RigidGroups({part: frozenset(group) for group in groups for part in group})
 
     def carried(
         self, made: MarkerJoints, link: str, kinds: Collection[JointKind], name: str, axis: np.ndarray
@@ -82,33 +82,40 @@ TURNS = (JointKind.REVOLUTE, JointKind.CYLINDRICAL, JointKind.SCREW)
 SLIDES = (JointKind.PRISMATIC,)
 
 
-def add_tie(
-    made: MarkerJoints,
-    bodies: Bodies,
-    kind: str,
-    name: str,
-    one: Marker,
-    other: Marker,
-    sizes: Mapping[str, float],
-    text: str,
-) -> None:
-    """Add the coupling of a gear, a rack or a screw, with `radius_i` and `radius_j`, `radius` or `pitch` in `sizes`.
+class MarkerTie(NamedTuple):
+    """A gear, a rack or a screw between two markers, as a file gives it."""
+
+    kind: str
+    """One of `TIES`."""
+    name: str
+    one: Marker
+    other: Marker
+    sizes: Mapping[str, float]
+    """`radius_i` and `radius_j` of gears, the `radius` of a pinion, the `pitch` of a screw."""
+    text: str
+    """What messages call it."""
+
+
+def add_tie(made: MarkerJoints, bodies: RigidGroups, tie: MarkerTie) -> None:
+    """Add the coupling of a gear, a rack or a screw.
 
     All joints of the file are there. Where no two joints carry the parts as the relation needs, a note says so.
     """
-    if not all(sizes.values()):
-        zero = next(key for key, size in sizes.items() if not size)
-        made.notes.append(f"{made.file}: {text} is not kept: its {zero} is zero")
+    if not all(tie.sizes.values()):
+        zero = next(key for key, size in tie.sizes.items() if not size)
+        made.notes.append(f"{made.file}: {tie.text} is not kept: its {zero} is zero")
         return
-    if kind == SCREW and _screw(made, bodies, one, other, sizes["pitch"]):
+    if tie.kind == SCREW and _screw(made, bodies, tie):
         return
-    factors = {GEAR: _gear, RACK: _rack, SCREW: _nut}[kind](made, bodies, one, other, sizes)
+    factors = {GEAR: _gear, RACK: _rack, SCREW: _nut}[tie.kind](made, bodies, tie)
     if factors is None:
-        made.notes.append(f"{made.file}: {text} is not kept, and what it ties moves on its own: {_NEEDED[kind]}")
+        made.notes.append(
+            f"{made.file}: {tie.text} is not kept, and what it ties moves on its own: {_NEEDED[tie.kind]}"
+        )
         return
     ties = {each.name: factor for each, factor in factors}
     offset = sum(factor * (each.joint.values or (0.0, 0.0))[each.column] for each, factor in factors)
-    made.couplings.append(relation(ties, offset, name=name))
+    made.couplings.append(relation(ties, offset, name=tie.name))
 
 
 _NEEDED = {
@@ -121,7 +128,9 @@ _NEEDED = {
 Factors = tuple[tuple[_Carried, float], tuple[_Carried, float]] | None
 
 
-def _about(made: MarkerJoints, bodies: Bodies, marker: Marker, axis: np.ndarray, near: float) -> Iterator[_Carried]:
+def _about(
+    made: MarkerJoints, bodies: RigidGroups, marker: Marker, axis: np.ndarray, near: float
+) -> Iterator[_Carried]:
     """Yield the joints that turn the part of a marker about a line through it."""
     for each in bodies.carried(made, marker.link, TURNS, "phi", axis):
         away = marker.pose[:3, 3] - each.joint.frame_1[:3, 3]
@@ -129,43 +138,45 @@ def _about(made: MarkerJoints, bodies: Bodies, marker: Marker, axis: np.ndarray,
             yield each
 
 
-def _gear(made: MarkerJoints, bodies: Bodies, one: Marker, other: Marker, sizes: Mapping[str, float]) -> Factors:
+def _gear(made: MarkerJoints, bodies: RigidGroups, tie: MarkerTie) -> Factors:
+    one, other = tie.one, tie.other
     near = COAXIAL * float(np.linalg.norm(one.pose[:3, 3] - other.pose[:3, 3]))
     first, second = (tuple(_about(made, bodies, each, each.pose[:3, 2], near)) for each in (one, other))
     for a, b in product(first, second):
         if a.carrier == b.carrier and a.joint is not b.joint:
-            return (a, sizes["radius_i"] * a.sign), (b, sizes["radius_j"] * b.sign)
+            return (a, tie.sizes["radius_i"] * a.sign), (b, tie.sizes["radius_j"] * b.sign)
     return None
 
 
-def _rack(made: MarkerJoints, bodies: Bodies, one: Marker, other: Marker, sizes: Mapping[str, float]) -> Factors:
+def _rack(made: MarkerJoints, bodies: RigidGroups, tie: MarkerTie) -> Factors:
+    one, other = tie.one, tie.other
     near = COAXIAL * float(np.linalg.norm(one.pose[:3, 3] - other.pose[:3, 3]))
     slides = tuple(bodies.carried(made, one.link, SLIDES, "z", one.pose[:3, 0]))
     for a, b in product(slides, tuple(_about(made, bodies, other, one.pose[:3, 2], near))):
         if a.carrier == b.carrier:
-            return (a, -a.sign), (b, sizes["radius"] * b.sign)
+            return (a, -a.sign), (b, tie.sizes["radius"] * b.sign)
     return None
 
 
-def _nut(made: MarkerJoints, bodies: Bodies, one: Marker, other: Marker, sizes: Mapping[str, float]) -> Factors:
+def _nut(made: MarkerJoints, bodies: RigidGroups, tie: MarkerTie) -> Factors:
     """Relate a slide of the one part and a turn of the other: the relation is the same for both ways round."""
-    z = one.pose[:3, 2]
+    one, other, z = tie.one, tie.other, tie.one.pose[:3, 2]
     for sliding, turning in ((one, other), (other, one)):
         slides = tuple(bodies.carried(made, sliding.link, SLIDES, "z", z))
         for a, b in product(slides, tuple(bodies.carried(made, turning.link, TURNS[:1], "phi", z))):
             if a.carrier == b.carrier:
-                return (a, -2.0 * np.pi * a.sign), (b, -sizes["pitch"] * b.sign)
+                return (a, -2.0 * np.pi * a.sign), (b, -tie.sizes["pitch"] * b.sign)
     return None
 
 
-def _screw(made: MarkerJoints, bodies: Bodies, one: Marker, other: Marker, pitch: float) -> bool:
+def _screw(made: MarkerJoints, bodies: RigidGroups, tie: MarkerTie) -> bool:
     """Make a screw of the cylindrical joint between the same two bodies; False where there is none."""
-    ends = {bodies.of[one.link], bodies.of[other.link]}
+    ends = {bodies.of[tie.one.link], bodies.of[tie.other.link]}
     for each in made.joints.values():
         if each.kind is JointKind.CYLINDRICAL and {bodies.of[part] for part in each.parts} == ends:
             limits = each.limits[1:] if each.limits else ()
             made.joints[each.name] = replace(
-                each, kind=JointKind.SCREW, pitch=pitch, values=each.values[1:], limits=limits
+                each, kind=JointKind.SCREW, pitch=tie.sizes["pitch"], values=each.values[1:], limits=limits
             )
             return True
     return False

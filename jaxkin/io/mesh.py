@@ -1,4 +1,4 @@
-"""Solid models from meshes: parts whose faces are recovered from their triangles."""
+"""Read parts from mesh files: closed solids, whose faces are recovered from their triangles."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from jaxkin.geometry.shells import bodies, holes_and_cracks, shells, volume, wro
 from jaxkin.geometry.torus import Torus
 from jaxkin.geometry.weld import weld
 from jaxkin.io.mesh_check import MAX_MESH_NODES
-from jaxkin.io.mesh_nodes import Node, read_nodes
+from jaxkin.io.mesh_nodes import MeshNode, read_nodes
 from jaxkin.io.names import cleaned, unique
 from jaxkin.io.time_limit import TimeLimit
 
@@ -44,7 +44,7 @@ def read_mesh(path: str | Path, whole: str | None = None, seconds: float | None 
     nodes, unit = read_nodes(path, limit)
     if whole is not None:
         corners = np.concatenate([node.corners for node in nodes])
-        solids = [Node(whole, nodes[0].color, corners, max(node.vertex_resolution for node in nodes))]
+        solids = [MeshNode(whole, nodes[0].color, corners, max(node.vertex_resolution for node in nodes))]
     elif len(nodes) > 1:
         solids = nodes
     else:
@@ -61,7 +61,7 @@ def read_mesh(path: str | Path, whole: str | None = None, seconds: float | None 
     return tuple(parts), unit
 
 
-def _bodies(node: Node, path: Path) -> list[Node]:
+def _bodies(node: MeshNode, path: Path) -> list[MeshNode]:
     """Find the connected bodies of a node."""
     welded = weld(node.corners, 2 * node.tolerance)
     corners = welded.points[welded.triangles]
@@ -70,14 +70,18 @@ def _bodies(node: Node, path: Path) -> list[Node]:
         raise ValueError(f"{path.name} holds {len(closed)} bodies, more than {MAX_MESH_NODES}: export it part by part")
     found = bodies(corners, closed) if closed else []
     if len(found) < 2 or len(welded.open_edges):
-        return [Node(path.stem, node.color, node.corners, node.vertex_resolution)]
+        return [MeshNode(path.stem, node.color, node.corners, node.vertex_resolution)]
     return [
-        Node(f"part {number}", node.color, corners[rows], node.vertex_resolution)
+        MeshNode(f"part {number}", node.color, corners[rows], node.vertex_resolution)
         for number, rows in enumerate(found, start=1)
     ]
 
 
-def _part(name: str, solid: Node, source: str) -> Part:
+def _part(name: str, solid: MeshNode, source: str) -> Part:
+    """Make a part of the triangles of a node: corners welded, wound outwards, grouped into faces.
+
+    Raises ValueError for what is not closed, holds no volume, or cuts itself; `source` is the file that messages name.
+    """
     welded = weld(solid.corners, 2 * solid.tolerance)
     corners = welded.points[welded.triangles]
     notes = []

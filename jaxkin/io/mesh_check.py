@@ -1,4 +1,4 @@
-"""What a mesh file claims, held against what it is, before anything is read from it.
+"""Check what the header of a mesh file claims against the file, before anything else is read from it.
 
 trimesh takes many broken files for empty scenes, and some claims for what to allocate.
 """
@@ -19,7 +19,7 @@ MAX_MESH_BYTES = 500_000_000
 """Bytes of a file, or of what is packed in it: what `MAX_TRIANGLES` triangles take as text."""
 
 UNITS = {"micron": "um", "millimeter": "mm", "centimeter": "cm", "meter": "m", "inch": "in", "foot": "ft"}
-"""Of 3MF, and what they are called here."""
+"""Units of length of 3MF, and what they are called here."""
 
 
 def check(path: Path) -> str | None:
@@ -48,10 +48,12 @@ def is_binary_stl(path: Path) -> bool:
 
 
 def too_many(name: str, count: int) -> ValueError:
+    """Make the error for a file of more than `MAX_TRIANGLES` triangles."""
     return ValueError(f"{name} holds {count} triangles, more than {MAX_TRIANGLES}: export it coarser, or part by part")
 
 
 def _stl(path: Path, head: bytes, size: int) -> None:
+    """Check STL: as text that it ends, else that it has as many bytes as the triangles take that its header counts."""
     count = int.from_bytes(head[80:84], "little")
     if size != 84 + 50 * count and re.match(rb"\s*solid\b", head) and (b"facet" in head or b"endsolid" in head):
         if size > MAX_MESH_BYTES:
@@ -78,11 +80,13 @@ def _stl(path: Path, head: bytes, size: int) -> None:
 
 
 def _obj(path: Path, head: bytes, size: int) -> None:
+    """Check that OBJ is text."""
     if b"\0" in head:
         raise ValueError(f"{path.name} is no OBJ file: it is not text")
 
 
 def _ply(path: Path, head: bytes, size: int) -> None:
+    """Check that the elements that the header of PLY announces, of a byte each at least, fit into the file."""
     if not re.match(rb"ply\s*[\r\n]", head):
         raise ValueError(f"{path.name} is no PLY file: it does not begin with ply")
     end = re.search(rb"end_header[^\n]*\n", head)
@@ -99,6 +103,7 @@ def _ply(path: Path, head: bytes, size: int) -> None:
 
 
 def _3mf(path: Path, head: bytes, size: int) -> str:
+    """Check that the archive of 3MF holds a model and unpacks to no more than `MAX_MESH_BYTES`; return its unit."""
     try:
         unpacked, start = _unpacked(path)
     except Exception as error:  # the unpackers raise whatever a damaged archive makes them stumble over
@@ -130,6 +135,7 @@ def _unpacked(path: Path) -> tuple[int, bytes | None]:
 
 
 def _glb(path: Path, head: bytes, size: int) -> str:
+    """Check that GLB has the length that its header states; return its unit."""
     if head[:4] != b"glTF":
         raise ValueError(f"{path.name} is no GLB file: it does not begin with glTF")
     stated = int.from_bytes(head[8:12], "little")
@@ -142,6 +148,7 @@ def _glb(path: Path, head: bytes, size: int) -> str:
 
 
 def _dae(path: Path, head: bytes, size: int) -> str:
+    """Check the first element of COLLADA; return the unit in which it is read."""
     if b"<COLLADA" not in head or b"<!DOCTYPE" in head:
         raise ValueError(f"{path.name} is no COLLADA file: expected <COLLADA> as its first element, and no DOCTYPE")
     return "m"  # corners are read in metres, whatever unit the file has

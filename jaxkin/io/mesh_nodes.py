@@ -27,7 +27,7 @@ _LEAST, _GREATEST = 1e-15, 1e15
 
 
 @dataclass(frozen=True, eq=False)
-class Node:
+class MeshNode:
     """Triangles that a file keeps together."""
 
     name: str
@@ -43,7 +43,7 @@ class Node:
         return max(1e-6 * float(np.linalg.norm(np.ptp(self.corners.reshape(-1, 3), axis=0))), self.vertex_resolution)
 
 
-def read_nodes(path: Path, limit: TimeLimit) -> tuple[list[Node], str]:
+def read_nodes(path: Path, limit: TimeLimit) -> tuple[list[MeshNode], str]:
     """Read the nodes of a mesh file that have triangles, and its unit, "" where the format has none.
 
     Raises ValueError where it is no mesh that can be read, or not within the limit.
@@ -55,13 +55,13 @@ def read_nodes(path: Path, limit: TimeLimit) -> tuple[list[Node], str]:
     return found, unit or ""
 
 
-def read_several(paths: Iterable[Path], seconds: float | None = None) -> dict[Path, list[Node] | ValueError]:
+def read_several(paths: Iterable[Path], seconds: float | None = None) -> dict[Path, list[MeshNode] | ValueError]:
     """Read the nodes of mesh files, or why there are none; `seconds` is the time allowed for each.
 
     The program that reads takes most of a second to start: one reads all of them. Where a file ends it, the next begins
     with that file, to which all of its time belongs.
     """
-    found: dict[Path, list[Node] | ValueError] = {}
+    found: dict[Path, list[MeshNode] | ValueError] = {}
     rest = []
     for path in paths:
         try:
@@ -78,7 +78,7 @@ def read_several(paths: Iterable[Path], seconds: float | None = None) -> dict[Pa
     return found
 
 
-def _binary_stl(path: Path) -> list[Node]:
+def _binary_stl(path: Path) -> list[MeshNode]:
     """Read records of 50 bytes after the header, each a normal, three corners and two bytes of no meaning here.
 
     The commonest of all mesh files, one for every part; to start trimesh takes longer than to read a hundred of them.
@@ -87,7 +87,7 @@ def _binary_stl(path: Path) -> list[Node]:
     return [_node(path.stem, None, np.fromfile(path, record, offset=84)["corners"], np.eye(4), path.name)]
 
 
-def _by_trimesh(paths: list[Path], limit: TimeLimit) -> dict[Path, list[Node] | ValueError]:
+def _by_trimesh(paths: list[Path], limit: TimeLimit) -> dict[Path, list[MeshNode] | ValueError]:
     """Read as many of the files, in their order, as one program does before one of them ends it; at least the first."""
     with tempfile.TemporaryDirectory() as folder:
         files = [path.resolve() for path in paths]
@@ -122,7 +122,7 @@ def _unreadable(path: Path, why: str) -> ValueError:
     return ValueError(f"{path.name} cannot be read as {kind}: {why}; export it again")
 
 
-def _nodes(path: Path, written: Path) -> list[Node] | ValueError:
+def _nodes(path: Path, written: Path) -> list[MeshNode] | ValueError:
     """Make the nodes of a file of what the reader wrote."""
     with np.load(written) as data:
         entries = json.loads(str(data["about"]))
@@ -137,7 +137,7 @@ def _nodes(path: Path, written: Path) -> list[Node] | ValueError:
 
 
 @np.errstate(over="ignore", invalid="ignore")  # sizes that are infinite are refused below
-def _node(name: str, color: list[float] | None, corners: np.ndarray, pose: np.ndarray, source: str) -> Node:
+def _node(name: str, color: list[float] | None, corners: np.ndarray, pose: np.ndarray, source: str) -> MeshNode:
     corners, pose = np.asarray(corners, float), np.asarray(pose, float)
     bad = int(np.sum(~np.isfinite(corners).all(axis=(1, 2))))
     if bad or not np.all(np.isfinite(pose)):
@@ -146,7 +146,7 @@ def _node(name: str, color: list[float] | None, corners: np.ndarray, pose: np.nd
     if np.linalg.det(pose[:3, :3]) < 0:
         corners = corners[:, ::-1]
     vertex_resolution = 3e-7 * float(np.abs(corners).max() * scale.max())
-    node = Node(
+    node = MeshNode(
         name, None if color is None else (color[0], color[1], color[2]), apply(pose, corners), vertex_resolution
     )
     size = float(np.linalg.norm(np.ptp(node.corners.reshape(-1, 3), axis=0)))

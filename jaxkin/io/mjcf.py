@@ -25,10 +25,10 @@ from jaxkin.io.mjcf_ties import Ties
 from jaxkin.io.robot_gravity import gravity_notes
 from jaxkin.io.robot_model import (
     WORLD,
+    LinkShape,
     RobotJoint,
     RobotLink,
     RobotModel,
-    Shape,
     Weighed,
     along,
     direction,
@@ -57,12 +57,12 @@ Placed = tuple[Element, Transform, str | None]
 
 
 @dataclass
-class Bodies:
+class ModelBodies:
     """What the bodies of a model are: gathered on the way through them, at MuJoCo's `qpos0`."""
 
     poses: dict[str, Transform] = field(default_factory=lambda: {WORLD: np.eye(4)})
     """From each body to the world, metres."""
-    shapes: dict[str, list[Shape]] = field(default_factory=lambda: {WORLD: []})
+    shapes: dict[str, list[LinkShape]] = field(default_factory=lambda: {WORLD: []})
     inertials: dict[str, Inertial] = field(default_factory=dict)
     """Of the bodies of which the model says what they weigh, in their frames."""
     weighed: dict[str, tuple[Weighed, ...]] = field(default_factory=dict)
@@ -96,7 +96,7 @@ class _Reader:
         self.defaults = Defaults(root, path.name)
         replicated(root, self.compiler)
         self.shapes = Shapes(root, self.compiler, self.defaults)
-        self.found = Bodies(notes=[*notes, *unknown_parts(root, SECTIONS, path.name), *_gravity(root, path.name)])
+        self.found = ModelBodies(notes=[*notes, *unknown_parts(root, SECTIONS, path.name), *_gravity(root, path.name)])
 
     def model(self) -> RobotModel:
         """Go through the bodies, then what ties them together and what moves them."""

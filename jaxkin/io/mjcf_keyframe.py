@@ -26,7 +26,7 @@ FREE = 7
 BALL = 4
 """Numbers of a ball in `qpos`: its quaternion."""
 
-Step = tuple[Transform, tuple[float, ...]]
+JointStep = tuple[Transform, tuple[float, ...]]
 """Displacement of a joint, and of its coordinates, as `posed` has them."""
 
 
@@ -85,7 +85,7 @@ def at_keyframe(
     by_name = {each.name: each for each in model.joints}
     keys = [(key.get("name", ""), _whole(key, [by_name.get(name) for name in order])) for key in written]
     keys += [(name, _of_joints(numbers, by_name)) for name, numbers in attached.items()]
-    steps: dict[str, Step] = {}
+    steps: dict[str, JointStep] = {}
     taken = []
     for name, found in sorted(keys, key=lambda key: (key[0] != HOME, not key[0].endswith(HOME))):
         if (beyond & found.keys()) - steps.keys() and not found.keys() & steps.keys():
@@ -96,7 +96,7 @@ def at_keyframe(
     return posed(model, steps, tree), (f"{what}: the assembled pose is that of {' and '.join(taken)}",)
 
 
-def _whole(key: Element, joints: Sequence[RobotJoint | None]) -> dict[str, Step]:
+def _whole(key: Element, joints: Sequence[RobotJoint | None]) -> dict[str, JointStep]:
     """Read the displacements of all joints of a keyframe; nothing where its numbers are not theirs."""
     sizes = [FREE if each is None else _size(each) for each in joints]
     numbers = _numbers(key.get("qpos"), sum(sizes))
@@ -106,7 +106,7 @@ def _whole(key: Element, joints: Sequence[RobotJoint | None]) -> dict[str, Step]
     return {each.name: _step(each, own) for each, own in zip(joints, parts, strict=True) if each is not None}
 
 
-def _of_joints(numbers: Mapping[str, str], joints: Mapping[str, RobotJoint]) -> dict[str, Step]:
+def _of_joints(numbers: Mapping[str, str], joints: Mapping[str, RobotJoint]) -> dict[str, JointStep]:
     """Read the displacements of the joints that a keyframe of an attached model names."""
     found = {}
     for name, said in numbers.items():
@@ -128,7 +128,7 @@ def _numbers(said: str | None, size: int) -> Float[np.ndarray, " numbers"] | Non
     return numbers if len(numbers) == size and np.isfinite(numbers).all() else None
 
 
-def _step(joint: RobotJoint, own: Float[np.ndarray, " numbers"]) -> Step:
+def _step(joint: RobotJoint, own: Float[np.ndarray, " numbers"]) -> JointStep:
     """Compute the displacement of a joint from its numbers in `qpos`."""
     if joint.kind is JointKind.SPHERICAL:
         return placed(quaternion(own, "qpos") if own.any() else np.eye(3), (0, 0, 0)), ()

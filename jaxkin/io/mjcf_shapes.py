@@ -7,7 +7,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 
 from jaxkin.io.mjcf_text import Compiler, Defaults
-from jaxkin.io.robot_model import Shape, numbers, placed, quaternion
+from jaxkin.io.robot_model import LinkShape, numbers, placed, quaternion
 
 SIZES = {"sphere": 1, "ellipsoid": 3, "box": 3, "capsule": 2, "cylinder": 2}
 """Types of solids -> how many sizes each needs."""
@@ -28,7 +28,7 @@ class Shapes:
             stem = file.replace("\\", "/").rpartition("/")[2].rpartition(".")[0]
             self.meshes[said.get("name", stem)] = said
 
-    def drawn(self, geom: Element, child_class: str | None, where: str) -> Shape | None:
+    def drawn(self, geom: Element, child_class: str | None, where: str) -> LinkShape | None:
         """Read a solid as `solid` does; None, too, for what is only for collisions."""
         said = self.defaults.said(geom, child_class)
         return None if group_of(said) >= COLLIDING else self.solid(said, where)
@@ -38,7 +38,7 @@ class Shapes:
         said = self.defaults.said(geom, child_class)
         return said.get("type", "sphere") in SIZES and group_of(said) < COLLIDING
 
-    def solid(self, said: dict[str, str], where: str) -> Shape | None:
+    def solid(self, said: dict[str, str], where: str) -> LinkShape | None:
         """Read a solid in the frame that it is written in, from its attributes; None for a plane, and for a size that
         is none."""
         kind = said.get("type", "mesh" if "mesh" in said and "type" not in said else "sphere")
@@ -55,13 +55,13 @@ class Shapes:
         if len(size) < SIZES[kind] or not np.isfinite(size).all() or np.any(size[: SIZES[kind]] <= 0):
             return None
         if kind in ("capsule", "cylinder"):
-            return Shape(pose, kind, (float(size[0]), 2 * float(size[1])))
+            return LinkShape(pose, kind, (float(size[0]), 2 * float(size[1])))
         lengths = tuple(float(each) for each in size[: SIZES[kind]])
         if kind == "box":
-            return Shape(pose, "box", tuple(2 * each for each in lengths))
-        return Shape(pose, "sphere", lengths)
+            return LinkShape(pose, "box", tuple(2 * each for each in lengths))
+        return LinkShape(pose, "sphere", lengths)
 
-    def _mesh(self, name: str, where: str, pose: np.ndarray) -> Shape:
+    def _mesh(self, name: str, where: str, pose: np.ndarray) -> LinkShape:
         said = self.meshes.get(name, {"file": name})
         file = said.get("file", "")
         if self.compiler.strip and "folder" not in said:
@@ -72,9 +72,9 @@ class Shapes:
             reference = placed(turn, numbers(said.get("refpos"), 3, where, (0, 0, 0)))
         if not file and "vertex" in said:
             corners = _inline(said, f"{where}: mesh {name!r}")
-            return Shape(pose, "mesh", scale, name, corners, reference)
+            return LinkShape(pose, "mesh", scale, name, corners, reference)
         folder = said.get("folder", self.compiler.folder).rstrip("/")  # an attached model lies in one of its own
-        return Shape(pose, "mesh", scale, f"{folder}/{file}" if folder else file, reference=reference)
+        return LinkShape(pose, "mesh", scale, f"{folder}/{file}" if folder else file, reference=reference)
 
 
 def group_of(said: dict[str, str]) -> int:

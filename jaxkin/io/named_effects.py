@@ -18,10 +18,10 @@ from jaxkin._arguments import by_name, one_number
 from jaxkin._names import closest, listed, nearest
 from jaxkin.effects.clashes import clashes
 from jaxkin.effects.contact_validity import contact_validity
+from jaxkin.effects.forces.acting import STANDARD_GRAVITY
 from jaxkin.effects.forces.drive import drive_forces
 from jaxkin.effects.forces.masses import masses
 from jaxkin.effects.forces.reactions import reactions
-from jaxkin.effects.forces.wrenches import STANDARD_GRAVITY
 from jaxkin.effects.rates import accelerations, velocities
 from jaxkin.geometry.movements import is_length
 from jaxkin.mechanism.motion import Motion

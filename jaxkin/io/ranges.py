@@ -14,7 +14,7 @@ from jaxkin.geometry.units import METRES
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
-Values = Float[np.ndarray, " poses"]
+RangeValues = Float[np.ndarray, " poses"]
 
 FORM = "START:STOP:COUNT, as in 0:360:361, or VALUE,VALUE,..."
 """What a range looks like."""
@@ -26,12 +26,12 @@ RADIANS = {"deg": np.pi / 180, "rad": 1.0, "turn": 2 * np.pi}
 class Range(NamedTuple):
     """Displacements of one joint coordinate, as they were written."""
 
-    values: Values
+    values: RangeValues
     unit: str = ""
     """A key of `RADIANS` or `METRES`; empty for degrees, or for the unit of the mechanism."""
 
 
-def read_range(text: str) -> Values:
+def read_range(text: str) -> RangeValues:
     """Read the displacements of a text "START:STOP:COUNT", ends included, or "VALUE,VALUE,..."; ValueError
     otherwise."""
     ranged = ":" in text
@@ -55,7 +55,7 @@ def read_range(text: str) -> Values:
     return np.linspace(numbers[0], numbers[1], count) if ranged else np.array(numbers)
 
 
-def in_radians(mechanism: Mechanism, ranges: Mapping[str, Range]) -> dict[str, Values]:
+def in_radians(mechanism: Mechanism, ranges: Mapping[str, Range]) -> dict[str, RangeValues]:
     """Make the drive for `sweep`, by the full names of its coordinates: radians, and lengths in the unit of the
     mechanism.
 

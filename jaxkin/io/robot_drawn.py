@@ -11,8 +11,8 @@ from jaxkin._names import listed
 from jaxkin.geometry.inertial import Inertial, sum_of
 from jaxkin.geometry.pose import apply, inverse
 from jaxkin.io.mesh import MESHES
-from jaxkin.io.mesh_nodes import Node, read_several
-from jaxkin.io.robot_model import RobotLink, Shape
+from jaxkin.io.mesh_nodes import MeshNode, read_several
+from jaxkin.io.robot_model import LinkShape, RobotLink
 from jaxkin.io.shape_masses import inertial_of
 
 DRAWN = (*MESHES, ".dae")
@@ -54,7 +54,7 @@ class Drawn:
         )
         """The meshes that are not there, with their links."""
 
-    def _solids(self, shapes: dict[str, tuple[Shape, ...]]) -> dict[str, list[np.ndarray]]:
+    def _solids(self, shapes: dict[str, tuple[LinkShape, ...]]) -> dict[str, list[np.ndarray]]:
         """Make the triangles of the shapes of each link; those of which there is no file are left out."""
         self._fetch(shape.file for each in shapes.values() for shape in each if _is_file(shape))
         return {
@@ -76,7 +76,7 @@ class Drawn:
             found.append(own)
         return sum_of(found), ""
 
-    def _corners(self, shape: Shape) -> np.ndarray | str:
+    def _corners(self, shape: LinkShape) -> np.ndarray | str:
         """Return the triangles (n, 3, 3) of a shape, in its frame, metres; or why there are none."""
         if shape.kind != "mesh":
             return triangles_of(shape)
@@ -112,18 +112,18 @@ class Drawn:
         return f"mesh {name!r} is not there" if file is None else file
 
 
-def _is_file(shape: Shape) -> bool:
+def _is_file(shape: LinkShape) -> bool:
     return shape.kind == "mesh" and shape.corners is None
 
 
-def _joined(name: str, found: list[Node] | ValueError) -> np.ndarray | str:
+def _joined(name: str, found: list[MeshNode] | ValueError) -> np.ndarray | str:
     """Return the triangles of the mesh of that name, or why there are none."""
     if isinstance(found, ValueError):
         return f"mesh {name!r} cannot be read: {found}"
     return np.concatenate([node.corners for node in found])
 
 
-def triangles_of(shape: Shape) -> np.ndarray:
+def triangles_of(shape: LinkShape) -> np.ndarray:
     """Make the triangles (n, 3, 3) of a solid that needs no file, in its frame, metres.
 
     Round ones have their exact volume, so that they weigh what they are: triangles with their corners on a sphere hold

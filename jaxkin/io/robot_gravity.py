@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from jaxkin.effects.forces.wrenches import STANDARD_GRAVITY
+from jaxkin.effects.forces.acting import STANDARD_GRAVITY
 from jaxkin.io.robot_model import numbers
 
 CLOSE = 0.01

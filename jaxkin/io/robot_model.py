@@ -26,7 +26,7 @@ UNLIMITED = 1e9
 
 
 @dataclass(frozen=True, eq=False)
-class Shape:
+class LinkShape:
     """One solid of a link."""
 
     pose: Transform
@@ -47,7 +47,7 @@ class Shape:
 class Weighed(NamedTuple):
     """What one solid of a link weighs."""
 
-    shape: Shape
+    shape: LinkShape
     amount: float
     """Its mass in kilograms, or its density in kilograms per cubic metre."""
     is_mass: bool
@@ -60,9 +60,9 @@ class RobotLink:
     name: str
     pose: Transform
     """From the link to the world, metres."""
-    shapes: tuple[Shape, ...] = ()
+    shapes: tuple[LinkShape, ...] = ()
     """What is seen of it."""
-    collisions: tuple[Shape, ...] = ()
+    collisions: tuple[LinkShape, ...] = ()
     """What it collides with: drawn where nothing that is seen of it can be read."""
     inertial: Inertial | None = None
     """In the frame of the link, metres; None where the file says nothing of its mass."""

@@ -17,7 +17,7 @@ from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import apply
 from jaxkin.io.names import cleaned, unique
 from jaxkin.io.robot_drawn import Drawn, triangles_of
-from jaxkin.io.robot_model import RobotJoint, RobotLink, RobotModel, Shape
+from jaxkin.io.robot_model import LinkShape, RobotJoint, RobotLink, RobotModel
 from jaxkin.joints.combine import Chain
 from jaxkin.joints.on_frames import MOVEMENT_OF
 from jaxkin.topology.components import connected
@@ -120,7 +120,7 @@ def _weighed(model: RobotModel, drawn: Drawn, file: str) -> tuple[dict[str, Iner
 def _part(link: RobotLink, name: str, solids: list[np.ndarray], mark: float, weighs: Inertial | None) -> Part:
     """Make a part of a link and its solids, in the world; a small box at its origin where there are none."""
     notes = () if solids or not (link.shapes or link.collisions) else ("no file of its solid",)
-    corners = np.concatenate(solids) if solids else triangles_of(Shape(np.eye(4), "box", (mark,) * 3))
+    corners = np.concatenate(solids) if solids else triangles_of(LinkShape(np.eye(4), "box", (mark,) * 3))
     inertial = None if weighs is None else weighs.moved(link.pose)
     triangles, is_solid = apply(link.pose, corners), bool(solids)
     return Part(name, (), triangles, notes=notes, original_name=link.name, inertial=inertial, is_solid=is_solid)

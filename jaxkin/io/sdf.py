@@ -10,7 +10,7 @@ import numpy as np
 from jaxkin._names import nearest
 from jaxkin.geometry.inertial import NONE
 from jaxkin.geometry.pose import Transform
-from jaxkin.io.robot_couplings import follower
+from jaxkin.io.robot_couplings import Mimic, follower
 from jaxkin.io.robot_gravity import gravity_notes
 from jaxkin.io.robot_inertials import sdf_inertial
 from jaxkin.io.robot_model import (
@@ -27,7 +27,7 @@ from jaxkin.io.robot_model import (
     tag,
     unknown_parts,
 )
-from jaxkin.io.sdf_frames import IN_ANOTHER, Frames, is_true
+from jaxkin.io.sdf_frames import IN_ANOTHER, SdfFrames, is_true
 from jaxkin.io.sdf_gearbox import Gearbox, gearboxes
 from jaxkin.io.sdf_includes import axis_in_model, included
 from jaxkin.io.sdf_shapes import shapes_of
@@ -109,11 +109,11 @@ class _Reader:
             tuple(links), tuple(self.joints), tuple(fixed), motors, tuple(self.notes), couplings=tuple(couplings)
         )
 
-    def _frames(self, model: Element) -> Frames:
+    def _frames(self, model: Element) -> SdfFrames:
         inner = {each.get("name", ""): self._frames(each) for each in model.iterfind("model")}
-        return Frames(self.file, model, inner)
+        return SdfFrames(self.file, model, inner)
 
-    def _read(self, model: Element, frames: Frames, prefix: str, pose: Transform, static: bool) -> None:
+    def _read(self, model: Element, frames: SdfFrames, prefix: str, pose: Transform, static: bool) -> None:
         """Read the links and joints of a model at a pose in the world, and those of the models in it."""
         where = f"{self.file}: {tag(model)}"
         self.notes += unknown_parts(model, MODEL_TAGS, where)
@@ -134,7 +134,7 @@ class _Reader:
             if "control" in f"{plugin.get('name', '')} {plugin.get('filename', '')}".lower():
                 self.motors += [prefix + (joint.text or "").strip() for joint in plugin.iter("joint_name")]
 
-    def _joint(self, each: Element, frames: Frames, prefix: str, pose: Transform, static: bool) -> None:
+    def _joint(self, each: Element, frames: SdfFrames, prefix: str, pose: Transform, static: bool) -> None:
         """Read a joint: of "revolute2" two, with a part without a solid between them."""
         name, said = prefix + each.get("name", ""), each.get("type", "")
         where = f"{self.file}: {tag(each)}"
@@ -177,7 +177,7 @@ class _Reader:
         pitch = self._pitch(each, where) if kind is JointKind.SCREW else 0.0
         self.joints.append(RobotJoint(name, parts, kind, frame, frame, text, limits, pitch=pitch))
 
-    def _gearbox(self, each: Element, frames: Frames, prefix: str, pose: Transform, ends: list[str]) -> Gearbox:
+    def _gearbox(self, each: Element, frames: SdfFrames, prefix: str, pose: Transform, ends: list[str]) -> Gearbox:
         """Read a gearbox; ValueError where it does not say the link that its angles count from."""
         where = f"{self.file}: {tag(each)}"
         said = (each.findtext("gearbox_reference_body") or "").strip()
@@ -203,9 +203,10 @@ class _Reader:
             float(numbers(mimic.findtext(key), 1, where, (none,))[0])
             for key, none in (("multiplier", 1), ("offset", 0), ("reference", 0))
         )
-        return follower(name, leader, factor, offset - factor * reference, joints, f"{where}: mimic", self.notes)
+        follows = Mimic(name, leader, factor, offset - factor * reference)
+        return follower(follows, joints, f"{where}: mimic", self.notes)
 
-    def _axis(self, axis: Element | None, own: Transform, frames: Frames, where: str) -> np.ndarray:
+    def _axis(self, axis: Element | None, own: Transform, frames: SdfFrames, where: str) -> np.ndarray:
         """Read the direction of an axis in the frame of the model; z where none is written."""
         if axis is None:
             return own[:3, 2]

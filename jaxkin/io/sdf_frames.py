@@ -18,7 +18,7 @@ IN_ANOTHER = "::"
 """Between the name of a model and that of something in it."""
 
 
-class Frame(NamedTuple):
+class SdfFrame(NamedTuple):
     """A frame as it is written."""
 
     element: Element | None
@@ -53,13 +53,13 @@ def relative_to(element: Element, default: str) -> str:
     return (None if found is None else found.get("relative_to") or found.get("frame")) or default
 
 
-class Frames:
+class SdfFrames:
     """The frames of one model, by their names in it; those of models in it have its name before theirs."""
 
-    def __init__(self, file: str, model: Element, inner: dict[str, Frames]) -> None:
+    def __init__(self, file: str, model: Element, inner: dict[str, SdfFrames]) -> None:
         """Take the links, joints and frames of a model; `inner` are the frames of the models in it."""
         self.file, self.model, self.inner = file, model, inner
-        self.known: dict[str, Frame] = {}
+        self.known: dict[str, SdfFrame] = {}
         for each in model:
             name = each.get("name", "")
             if each.tag not in ("link", "joint", "frame", "model"):
@@ -74,7 +74,7 @@ class Frames:
                 base = on = each.get("attached_to") or MODEL
             elif each.tag == "model":
                 on = f"{name}{IN_ANOTHER}{inner[name].canonical()}"
-            self.known[name] = Frame(each, pose, relative_to(each, base), on)
+            self.known[name] = SdfFrame(each, pose, relative_to(each, base), on)
         first = model.find("link")
         self.links = tuple(each.get("name", "") for each in model.iterfind("link"))
         self.first = "" if first is None else first.get("name", "")

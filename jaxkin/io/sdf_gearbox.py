@@ -9,7 +9,7 @@ from itertools import product
 import numpy as np
 
 from jaxkin.io.marker_joints import MarkerJoints
-from jaxkin.io.marker_ties import TURNS, Bodies
+from jaxkin.io.marker_ties import TURNS, RigidGroups
 from jaxkin.io.robot_model import RobotJoint, RobotLink
 from jaxkin.joints.coupling import Coupling, relation
 
@@ -39,7 +39,7 @@ def gearboxes(
 ) -> list[Coupling]:
     """Make the couplings of gearboxes; what has no two joints that turn its links on the reference link is noted."""
     made = MarkerJoints(file, links, {each.name: each for each in joints})
-    bodies = Bodies.among(made, fixed)
+    bodies = RigidGroups.among(made, fixed)
     couplings = []
     for each in found:
         turns = [

@@ -6,11 +6,11 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 
-from jaxkin.io.robot_model import Shape, numbers, tag
+from jaxkin.io.robot_model import LinkShape, numbers, tag
 from jaxkin.io.sdf_frames import read_pose
 
 
-def shapes_of(link: Element, what: str, file: str, notes: list[str]) -> tuple[Shape, ...]:
+def shapes_of(link: Element, what: str, file: str, notes: list[str]) -> tuple[LinkShape, ...]:
     """Read the solids of the elements `what` of a link: "visual" or "collision". What is no known solid is noted."""
     found = []
     for each in link.iterfind(what):
@@ -21,12 +21,12 @@ def shapes_of(link: Element, what: str, file: str, notes: list[str]) -> tuple[Sh
                      "capsule": ("radius", "length"), "ellipsoid": ("radii",)}  # fmt: skip
             if solid.tag == "mesh":
                 scale = tuple(numbers(solid.findtext("scale"), 3, where, (1, 1, 1)))
-                found.append(Shape(pose, "mesh", scale, (solid.findtext("uri") or "").strip()))
+                found.append(LinkShape(pose, "mesh", scale, (solid.findtext("uri") or "").strip()))
             elif solid.tag in sizes:
                 size = [numbers(solid.findtext(key), 3 if key in ("size", "radii") else 1, where)
                         for key in sizes[solid.tag]]  # fmt: skip
                 kind = "sphere" if solid.tag == "ellipsoid" else solid.tag
-                found.append(Shape(pose, kind, tuple(np.concatenate(size).tolist())))
+                found.append(LinkShape(pose, kind, tuple(np.concatenate(size).tolist())))
             elif solid.tag not in ("plane", "empty"):
                 notes.append(f"{where}: {tag(solid)} is no solid that is known; left out")
     return tuple(found)

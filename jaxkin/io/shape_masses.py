@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from jaxkin.geometry.inertial import Inertial, of_density_one
-from jaxkin.io.robot_model import Shape, Weighed
+from jaxkin.io.robot_model import LinkShape, Weighed
 
 
 def inertial_of(weighed: Weighed, corners: np.ndarray | None) -> Inertial | None:
@@ -20,7 +20,7 @@ def inertial_of(weighed: Weighed, corners: np.ndarray | None) -> Inertial | None
     return Inertial(mass, found.centre, mass / found.mass * found.inertia).moved(weighed.shape.pose)
 
 
-def _of_formula(shape: Shape) -> Inertial:
+def _of_formula(shape: LinkShape) -> Inertial:
     """Compute the volume, as a mass, and the inertia of a solid that is no mesh, about its middle."""
     if shape.kind == "box":
         volume, squares = np.prod(shape.size), np.square(shape.size) / 12

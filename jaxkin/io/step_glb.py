@@ -25,7 +25,7 @@ Color = tuple[float, float, float]
 
 
 @dataclass(frozen=True, eq=False)
-class Mesh:
+class ProductMesh:
     """The triangles and faces of a product, which all its instances share, in a frame of its own."""
 
     triangles: Float[np.ndarray, "triangles 3 3"]
@@ -63,7 +63,7 @@ class Instance:
     """Names of the assemblies that the instance is in, below that of the whole file, outermost first."""
     places: tuple[Placement, ...]
     """Of the assemblies that the instance is in, and of itself, outermost first: rigid to float64."""
-    mesh: Mesh
+    mesh: ProductMesh
     color: Color | None
     complete: bool
     """False where triangles are missing: cascadio names the faces of the first colour of a mesh only."""
@@ -85,7 +85,7 @@ def instances(
     length = int.from_bytes(glb[12:16], "little")
     tree, binary = json.loads(glb[20 : 20 + length]), glb[28 + length :]
     roots = tree["scenes"][tree.get("scene", 0)].get("nodes", [])
-    read: dict[str, Mesh] = {}  # by the arrays, which all instances of a product name
+    read: dict[str, ProductMesh] = {}  # by the arrays, which all instances of a product name
     todo: list[tuple[int, tuple[Placement, ...], tuple[str, ...], tuple[str, ...]]]
     todo = [(node, (), (), inner) for node, inner in reversed(_inside(tree, roots, (), products or {}))]
     if len(roots) == 1:  # the assembly of the file, whose name tells no part from another
@@ -129,7 +129,7 @@ def _placement(node: dict[str, Any], placements: FilePlacements | None) -> Place
     return Placement(pose, SINGLE)
 
 
-def _mesh(tree: dict[str, Any], binary: bytes, primitives: list[dict[str, Any]]) -> Mesh:
+def _mesh(tree: dict[str, Any], binary: bytes, primitives: list[dict[str, Any]]) -> ProductMesh:
     triangles, normals, face_of = [np.zeros((0, 3, 3))], [np.zeros((0, 3, 3))], [np.zeros(0, int)]
     faces: list[dict[str, Any] | None] = []
     for primitive in primitives:
@@ -139,7 +139,7 @@ def _mesh(tree: dict[str, Any], binary: bytes, primitives: list[dict[str, Any]])
             normals.append(_array(tree, binary, primitive["attributes"]["NORMAL"]).astype(float)[rows])
             face_of.append(_array(tree, binary, described["faceIndices"]).astype(int) + len(faces))
             faces += described["faces"]
-    return Mesh(np.concatenate(triangles), np.concatenate(normals), np.concatenate(face_of), tuple(faces))
+    return ProductMesh(np.concatenate(triangles), np.concatenate(normals), np.concatenate(face_of), tuple(faces))
 
 
 def _faces(primitive: dict[str, Any]) -> dict[str, Any]:

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from jaxtyping import Int
 
+from jaxkin.geometry.facets import TriangleIndices
 from jaxkin.geometry.fit import fit_surface, fit_torus, flipped, rounding
 from jaxkin.geometry.fit_together import Piece, fit_together
 from jaxkin.geometry.merge import merge_faces
@@ -16,7 +16,7 @@ from jaxkin.geometry.part import Face, Part
 from jaxkin.geometry.pose import Points, Transform, apply, unit
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere, Surface
 from jaxkin.io.step_check import Defect, unsound
-from jaxkin.io.step_glb import Color, Mesh
+from jaxkin.io.step_glb import Color, ProductMesh
 from jaxkin.io.step_side import Triangles, areas, points_outwards, winding
 
 _GROSS = 1e-3
@@ -40,8 +40,6 @@ met with 2.6e-3."""
 _OTHERS = ("torus",)
 """Kinds that the reader of STEP files names, and that are none of the four: nothing is fitted to these."""
 
-Rows = Int[np.ndarray, "rows"]
-
 
 @dataclass(frozen=True, eq=False)
 class Solid:
@@ -63,7 +61,7 @@ class Solid:
         return Part(name, faces, apply(pose, self.triangles), color, (*notes, *damages)), damages
 
 
-def make_solid(mesh: Mesh, metres: float, uncertainty: float = 0.0) -> Solid:
+def make_solid(mesh: ProductMesh, metres: float, uncertainty: float = 0.0) -> Solid:
     """Make the solid of a mesh; `metres` is the unit of the file, `uncertainty` how far its faces may be off, in it."""
     triangles = mesh.triangles / metres
     tolerance = rounding(triangles)
@@ -95,7 +93,7 @@ def make_solid(mesh: Mesh, metres: float, uncertainty: float = 0.0) -> Solid:
 
 
 def _surfaces(
-    mesh: Mesh, triangles: Triangles, rows_of: Sequence[Rows], metres: float, tolerance: float
+    mesh: ProductMesh, triangles: Triangles, rows_of: Sequence[TriangleIndices], metres: float, tolerance: float
 ) -> list[Surface | None]:
     """Find the surface of each face: as the file says it, or fitted to a spline; None where it is none of the four."""
     found: list[Surface | None] = [None] * len(rows_of)
@@ -140,7 +138,7 @@ def _analytic(described: dict[str, Any] | None, corners: Points, metres: float) 
     return None
 
 
-def _oriented(surface: Surface, triangles: Triangles, rows: Rows) -> tuple[Surface, Triangles, str]:
+def _oriented(surface: Surface, triangles: Triangles, rows: TriangleIndices) -> tuple[Surface, Triangles, str]:
     """Make the surface of some triangles of a solid and these triangles, both facing outwards, and what was amiss."""
     corners = triangles[rows]
     wound = winding(surface, corners)

@@ -13,7 +13,7 @@ from jaxkin.assembly.wheels import wheels_last
 from jaxkin.contacts.contact import Contacts
 from jaxkin.io.load import load
 from jaxkin.io.named_effects import Result, Settings, compute
-from jaxkin.io.ranges import Range, Values, in_radians
+from jaxkin.io.ranges import Range, RangeValues, in_radians
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.coordinates import coordinates
@@ -130,7 +130,7 @@ class Study:
         )
 
     @cached_property
-    def drive(self) -> Mapping[str, Values]:
+    def drive(self) -> Mapping[str, RangeValues]:
         """The driven displacements by coordinate, in radians and in the unit of the mechanism."""
         if not self.ranges:
             joints = self.mechanism.all_joints

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Bodies:
+class BodyChoices:
     """What makes the bodies of a mechanism."""
 
     fixed: tuple[str, ...]
@@ -22,10 +22,10 @@ class Bodies:
     """Parts that move as one, and what that is known from; none that follows from those before it."""
 
     @staticmethod
-    def of(mechanism: Mechanism) -> Bodies:
+    def of(mechanism: Mechanism) -> BodyChoices:
         """Find the bonds and the joints without freedoms that make the bodies; without solids only what is fixed."""
         if not mechanism.solids:
-            return Bodies(mechanism.fixed, ())
+            return BodyChoices(mechanism.fixed, ())
         welds = [joint for joint in mechanism.all_joints if joint.kind is JointKind.FIXED]
         known = [(bond.parts, bond.evidence) for bond in mechanism.bonds]
         known += [(joint.parts, joint.evidence) for joint in welds]
@@ -39,4 +39,4 @@ class Bodies:
                 groups.append((parts, evidence))
         fixed = {owner[part]: part for part in reversed(mechanism.fixed)}
         needed = tuple(part for part in mechanism.fixed if part in fixed.values())
-        return Bodies(needed, tuple(groups))
+        return BodyChoices(needed, tuple(groups))

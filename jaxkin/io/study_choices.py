@@ -14,7 +14,7 @@ from jaxkin._grouped import products
 from jaxkin._names import counted, match_parts
 from jaxkin.assembly.assembly import Assembly
 from jaxkin.geometry.part import Part
-from jaxkin.io.study_bodies import Bodies
+from jaxkin.io.study_bodies import BodyChoices
 from jaxkin.io.study_drives import can_drive, small_ranges, useful_coordinates
 from jaxkin.io.toml_text import toml
 from jaxkin.joints.evidence import EvidenceKind
@@ -49,7 +49,7 @@ NONE = Choices()
 
 
 def find_choices(
-    mechanism: Mechanism, bodies: Bodies, drive: Mapping[str, str] | None, proposals: Sequence[Proposal]
+    mechanism: Mechanism, bodies: BodyChoices, drive: Mapping[str, str] | None, proposals: Sequence[Proposal]
 ) -> Choices:
     """Try what the study of a mechanism leaves open, on the joints that it holds; what could not be swept is left out.
 
@@ -66,7 +66,7 @@ def find_choices(
 class _Tried:
     """The mechanisms of a study with other fixed parts, or without one of its joints."""
 
-    def __init__(self, mechanism: Mechanism, bodies: Bodies) -> None:
+    def __init__(self, mechanism: Mechanism, bodies: BodyChoices) -> None:
         self.joints = [joint for joint in mechanism.all_joints if joint.freedoms]
         self.fixed = bodies.fixed
         self._assembly = Assembly(mechanism.solids, mechanism.unit, "the study")
@@ -126,7 +126,7 @@ def _doubt(tried: _Tried, joint: Joint, driven: Sequence[str]) -> str:
     return f'or "{doubt.kind}", since {doubt.why}: it has {_told(mechanism)} then{sweeps}'
 
 
-def _needless(mechanism: Mechanism, bodies: Bodies) -> list[str]:
+def _needless(mechanism: Mechanism, bodies: BodyChoices) -> list[str]:
     """Find parts that only one group holds, and that no joint needs, by their products: screws, and what touches
     nothing."""
     held = Counter(part for parts, _ in bodies.groups for part in parts)

@@ -9,14 +9,14 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import BeforeValidator, Field, create_model, model_validator
 
-from jaxkin.io.study_tables import STRICT, Number, one_of
+from jaxkin.io.study_tables import STRICT, FiniteNumber, one_of
 from jaxkin.joints.coupling import COUPLINGS, Coupling
 
 _VALUES = {
     "str": str,
-    "Number": Number,
-    "Mapping[str, Number]": dict[str, Number],
-    "Sequence[Number] | Array": Annotated[list[Number], Field(min_length=2)],
+    "Number": FiniteNumber,
+    "Mapping[str, Number]": dict[str, FiniteNumber],
+    "Sequence[Number] | Array | np.ndarray": Annotated[list[FiniteNumber], Field(min_length=2)],
 }
 """Annotation of an argument in `jaxkin.joints.coupling` -> what a study may say for it."""
 

@@ -18,7 +18,7 @@ from jaxkin.io.named_effects import Settings, check_effects
 from jaxkin.io.ranges import FORM, MAX_POSES, RADIANS, Range, read_range
 from jaxkin.io.study_couplings import CouplingTable
 from jaxkin.io.study_errors import messages
-from jaxkin.io.study_tables import STRICT, Number, one_of
+from jaxkin.io.study_tables import STRICT, FiniteNumber, one_of
 from jaxkin.joints import pairs
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.curve_joints import FOLLOWERS
@@ -34,12 +34,12 @@ JOINT_FUNCTIONS = {str(kind): function for kind, function in pairs.JOINTS_BY_HAN
 MAX_STUDY_BYTES = 1_000_000
 """Bytes of a study at most; they are written by people."""
 
-Triple = Annotated[list[Number], Field(min_length=3, max_length=3)]
-PlanePoint = Annotated[list[Number], Field(min_length=2, max_length=2)]
-Row = Annotated[list[Number], Field(min_length=4, max_length=4)]
-Frame = Annotated[list[Row], Field(min_length=4, max_length=4)]
-Pair = Annotated[list[str], Field(min_length=2, max_length=2)]
-Ends = Annotated[list[float], Field(min_length=2, max_length=2)]
+Triple = Annotated[list[FiniteNumber], Field(min_length=3, max_length=3)]
+PlanePoint = Annotated[list[FiniteNumber], Field(min_length=2, max_length=2)]
+MatrixRow = Annotated[list[FiniteNumber], Field(min_length=4, max_length=4)]
+Frame = Annotated[list[MatrixRow], Field(min_length=4, max_length=4)]
+TwoNames = Annotated[list[str], Field(min_length=2, max_length=2)]
+TwoNumbers = Annotated[list[float], Field(min_length=2, max_length=2)]
 
 
 def _geometry(value: object) -> object:
@@ -71,9 +71,9 @@ class ToleranceTable(BaseModel):
     """What still counts as touching: the arguments of `Assembly.contacts`."""
 
     model_config = STRICT
-    length: Annotated[Number, Field(gt=0)] | None = None
-    angle: Annotated[Number, Field(gt=0)] | None = None
-    fit: Annotated[Number, Field(ge=0)] | None = None
+    length: Annotated[FiniteNumber, Field(gt=0)] | None = None
+    angle: Annotated[FiniteNumber, Field(gt=0)] | None = None
+    fit: Annotated[FiniteNumber, Field(ge=0)] | None = None
 
     def given(self) -> dict[str, float]:
         """Return the tolerances that were said, by name."""
@@ -85,7 +85,7 @@ class JointTable(BaseModel):
 
     model_config = STRICT
     kind: Annotated[str, BeforeValidator(partial(one_of, JOINT_FUNCTIONS))]
-    parts: Pair
+    parts: TwoNames
     point: Triple | None = None
     axis: Triple | None = None
     axis1: Triple | None = None
@@ -93,12 +93,12 @@ class JointTable(BaseModel):
     normal: Triple | None = None
     direction: Triple | None = None
     centre: Triple | None = None
-    pitch: Number | None = None
+    pitch: FiniteNumber | None = None
     profile: list[PlanePoint] | None = None
     surface: list[list[Triple]] | None = None
     closed: bool | Annotated[list[bool], Field(min_length=2, max_length=2)] | None = None
     follower: Annotated[str, BeforeValidator(partial(one_of, FOLLOWERS))] | None = None
-    radius: Number | None = None
+    radius: FiniteNumber | None = None
     point2: Triple | None = None
     direction2: Triple | None = None
     profile2: list[PlanePoint] | None = None
@@ -107,7 +107,7 @@ class JointTable(BaseModel):
     state: str | None = None
     frames: list[Frame] | None = None
     region: Annotated[str, BeforeValidator(partial(one_of, ("circle",)))] | None = None
-    limits: Ends | dict[str, Ends] | None = None
+    limits: TwoNumbers | dict[str, TwoNumbers] | None = None
     off: bool = False
 
     @model_validator(mode="after")
@@ -154,10 +154,10 @@ class RangeTable(BaseModel):
     """The displacements of a joint coordinate: `values`, or `poses` of them evenly `from` one `to` another."""
 
     model_config = STRICT
-    first: Number | None = Field(None, alias="from")
-    last: Number | None = Field(None, alias="to")
+    first: FiniteNumber | None = Field(None, alias="from")
+    last: FiniteNumber | None = Field(None, alias="to")
     poses: Annotated[int, Field(ge=1, le=MAX_POSES)] | None = None
-    values: Annotated[list[Number], Field(min_length=1)] | None = None
+    values: Annotated[list[FiniteNumber], Field(min_length=1)] | None = None
     unit: Annotated[str, BeforeValidator(partial(one_of, ("", *RADIANS, *filter(None, METRES))))] = ""
 
     @model_validator(mode="after")
@@ -195,14 +195,14 @@ class StudyFile(BaseModel):
     rename: dict[str, str] = {}
     fixed: Annotated[list[str], Field(min_length=1)]
     rigid: list[Annotated[list[str], Field(min_length=1)]] = []
-    ignore: list[Pair] = []
+    ignore: list[TwoNames] = []
     exclude: list[str] = []
     motors: list[str] = []
     contacts: bool = True
     infer: bool = True
-    clearance: Annotated[Number, Field(ge=0)] | None = None
+    clearance: Annotated[FiniteNumber, Field(ge=0)] | None = None
     combine: bool = True
-    align: Annotated[Number, Field(ge=0, le=MISALIGNMENT_LEVELS[-1])] | None = None
+    align: Annotated[FiniteNumber, Field(ge=0, le=MISALIGNMENT_LEVELS[-1])] | None = None
     tolerance: ToleranceTable = ToleranceTable()
     joints: dict[str, JointTable] = {}
     couplings: dict[str, CouplingTable] = {}

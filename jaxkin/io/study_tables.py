@@ -9,7 +9,7 @@ from pydantic import ConfigDict, Field
 
 from jaxkin._names import closest
 
-Number = Annotated[float, Field(allow_inf_nan=False)]
+FiniteNumber = Annotated[float, Field(allow_inf_nan=False)]
 """A finite number."""
 
 

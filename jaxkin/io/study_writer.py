@@ -19,7 +19,7 @@ from jaxkin.assembly.wheels import wheels_last
 from jaxkin.contacts.reason import advises_tolerance
 from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.geometry.pose import Transform, frame
-from jaxkin.io.study_bodies import Bodies
+from jaxkin.io.study_bodies import BodyChoices
 from jaxkin.io.study_choices import NONE, Choices, find_choices
 from jaxkin.io.study_couplings import coupling_keys
 from jaxkin.io.study_curves import CURVE_ARGUMENTS, axes_of
@@ -79,7 +79,7 @@ def write_study(
     if mechanism.solids and geometry is None:
         raise ValueError('the mechanism has solids: say where they are from, as in geometry="arm.step"')
     check_writable(mechanism.all_joints, "study")
-    bodies = Bodies.of(mechanism)
+    bodies = BodyChoices.of(mechanism)
     choices = NONE if proposals is None or not mechanism.solids else find_choices(mechanism, bodies, drive, proposals)
     lines = [
         *_head(mechanism, geometry, loops, assumptions),
@@ -111,7 +111,7 @@ def _head(
     return lines + ["", f"unit = {toml(mechanism.unit)}"] if mechanism.unit else lines
 
 
-def _bodies(mechanism: Mechanism, bodies: Bodies, exclude: Sequence[str], choices: Choices) -> list[str]:
+def _bodies(mechanism: Mechanism, bodies: BodyChoices, exclude: Sequence[str], choices: Choices) -> list[str]:
     lines = ["", f"fixed = {toml(bodies.fixed)}"]
     if choices.instead:
         lines += [

@@ -10,14 +10,14 @@ import numpy as np
 from jaxkin._names import nearest
 from jaxkin.geometry.inertial import NONE, Inertial
 from jaxkin.geometry.pose import Transform
-from jaxkin.io.robot_couplings import follower
+from jaxkin.io.robot_couplings import Mimic, follower
 from jaxkin.io.robot_inertials import SIX, inertial
 from jaxkin.io.robot_loops import LoopPair, Loops, read_loops, unread_beside
 from jaxkin.io.robot_model import (
+    LinkShape,
     RobotJoint,
     RobotLink,
     RobotModel,
-    Shape,
     along,
     direction,
     limit,
@@ -200,7 +200,7 @@ class _Reader:
         factor, offset = (
             float(numbers(found.get(key), 1, where, (none,))[0]) for key, none in (("multiplier", 1), ("offset", 0))
         )
-        return follower(name, leader, factor, offset, joints, where, self.notes)
+        return follower(Mimic(name, leader, factor, offset), joints, where, self.notes)
 
     def _limits(self, each: Element, where: str) -> JointLimits:
         """Read the limits of a joint: none where neither is written, and zero for the one that is not."""
@@ -225,24 +225,24 @@ class _Reader:
             float(mass[0]), self._origin(given.get("origin"), f"{tag(link)}: inertial"), six, where, self.notes
         )
 
-    def _shapes(self, link: Element, what: str) -> tuple[Shape, ...]:
+    def _shapes(self, link: Element, what: str) -> tuple[LinkShape, ...]:
         """Read the solids of the elements `what` of a link: "visual" or "collision"."""
         return tuple(shape for each in link.iterfind(what) if (shape := self._shape(each, tag(link))) is not None)
 
-    def _shape(self, each: Element, where: str) -> Shape | None:
+    def _shape(self, each: Element, where: str) -> LinkShape | None:
         pose = self._origin(each.find("origin"), where)
         where = f"{self.file}: {where}"
         for solid in each.iterfind("geometry/*"):
             if solid.tag == "box":
-                return Shape(pose, "box", tuple(numbers(solid.get("size"), 3, where)))
+                return LinkShape(pose, "box", tuple(numbers(solid.get("size"), 3, where)))
             if solid.tag == "sphere":
-                return Shape(pose, "sphere", tuple(numbers(solid.get("radius"), 1, where)))
+                return LinkShape(pose, "sphere", tuple(numbers(solid.get("radius"), 1, where)))
             if solid.tag in ("cylinder", "capsule"):
                 size = [float(numbers(solid.get(key), 1, where)[0]) for key in ("radius", "length")]
-                return Shape(pose, solid.tag, tuple(size))
+                return LinkShape(pose, solid.tag, tuple(size))
             if solid.tag == "mesh":
                 scale = tuple(numbers(solid.get("scale"), 3, where, (1, 1, 1)))
-                return Shape(pose, "mesh", scale, solid.get("filename", ""))
+                return LinkShape(pose, "mesh", scale, solid.get("filename", ""))
             self.notes.append(f"{where}: {tag(solid)} is no solid that is known; left out")
         return None
 

@@ -14,10 +14,9 @@ from dataclasses import dataclass, replace
 from math import comb
 from typing import Any
 
-import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Array, Float
 
 from jaxkin._arguments import by_name, one_number, text
 from jaxkin._names import nearest
@@ -26,8 +25,7 @@ from jaxkin._traced import traced
 from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.joints.joint import Joint
 
-Array = np.ndarray | jax.Array
-Number = float | int | Array
+Number = float | int | Array | np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,9 +35,9 @@ class Coupling:
     name: str
     coordinates: tuple[str, ...]
     """Names of the coordinates, "joint" (of one coordinate) or "joint.coordinate"."""
-    coefficients: Float[Array, "*batch coordinates powers"]
+    coefficients: Float[Array | np.ndarray, "*batch coordinates powers"]
     """Factor of each coordinate to the powers 1, 2, ...: radians, and lengths in the unit of the mechanism."""
-    offset: Float[Array, "*batch"]
+    offset: Float[Array | np.ndarray, "*batch"]
     """What the sum is equal to; zero where the assembled pose obeys the coupling."""
     angles: bool | None = None
     """Whether all coordinates must be angles, as those of gears; False if one of each kind is expected (a rack), None
@@ -110,7 +108,7 @@ def relation(factors: Mapping[str, Number], offset: Number = 0.0, *, name: str |
 
 
 def polynomial(
-    follower: str, leader: str, coefficients: Sequence[Number] | Array, *, name: str | None = None
+    follower: str, leader: str, coefficients: Sequence[Number] | Array | np.ndarray, *, name: str | None = None
 ) -> Coupling:
     """Couple a coordinate to a polynomial of another: `follower = c_0 + c_1 leader + c_2 leader^2 + ...`.
 

@@ -8,7 +8,7 @@ on each other; nothing rolls.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from jaxtyping import Float
@@ -20,7 +20,7 @@ from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.limits import GivenLimits, with_limits
 from jaxkin.joints.profile_plane import ProfilePlane, ProfilePoint, profile_plane, profile_point
-from jaxkin.joints.profiles import Placed, check_simple, nearest_to, placed_profile, tangent_to, touching
+from jaxkin.joints.profiles import PlacedProfile, check_simple, nearest_to, placed_profile, tangent_to, touching
 
 Profile = Any
 """Points (x, y) of a profile, array-like of shape (n, 2)."""
@@ -59,7 +59,8 @@ def point_on_curve(
     plane = profile_plane(name, point, axis, direction)
     curve = placed_profile(name, "profile", profile, np.zeros(3), closed)
     contact = profile_point(curve, nearest_to(curve, plane.local(name, "point2", point2)))
-    return _follows(name, (part1, part2), JointKind.POINT_ON_CURVE, plane, curve, contact, 0.0, point2, limits)
+    made = _follows(name, (part1, part2), JointKind.POINT_ON_CURVE, _OnProfile(plane, curve, contact), 0.0, point2)
+    return _with_ends(made, limits)
 
 
 def cam(
@@ -113,12 +114,14 @@ def cam(
                 f"joint {name!r}: no tangent of the profile is parallel to the face, "
                 f"direction2={np.asarray(direction2).tolist()}"
             )
-        return _flat(name, (part1, part2), plane, curve, profile_point(curve, found), at, limits)
+        flat = _flat(name, (part1, part2), _OnProfile(plane, curve, profile_point(curve, found)), at)
+        return _with_ends(flat, limits)
     contact, size = profile_point(curve, nearest_to(curve, at)), 0.0
     if radius is not None:
         size = positive_radius(name, radius, "a roller")
         size = size if contact.away(at)[1] >= 0 else -size
-    return _follows(name, (part1, part2), JointKind.CAM, plane, curve, contact, size, point2, limits)
+    made = _follows(name, (part1, part2), JointKind.CAM, _OnProfile(plane, curve, contact), size, point2)
+    return _with_ends(made, limits)
 
 
 def curve_on_curve(
@@ -196,18 +199,19 @@ def positive_radius(name: str, radius: Any, of: str) -> float:
     return float(radius)
 
 
+class _OnProfile(NamedTuple):
+    """Where a follower touches a profile."""
+
+    plane: ProfilePlane
+    curve: PlacedProfile
+    contact: ProfilePoint
+
+
 def _follows(
-    name: str,
-    parts: tuple[str, str],
-    kind: JointKind,
-    plane: ProfilePlane,
-    curve: Placed,
-    contact: ProfilePoint,
-    height: float,
-    point2: Triple,
-    limits: GivenLimits | None,
+    name: str, parts: tuple[str, str], kind: JointKind, on: _OnProfile, height: float, point2: Triple
 ) -> Joint:
     """Make a joint whose second part turns about a point at a height beside its profile, `point2` as assembled."""
+    plane, curve, contact = on
     given = plane.local(name, "point2", point2)
     misfit = float(np.linalg.norm(given - contact.beside(height)))
     touches = misfit <= TOUCHES * curve.size
@@ -218,20 +222,12 @@ def _follows(
     evidence = _moved(misfit, curve.size) if touches else BY_HAND
     frames_1, frames_2 = np.stack([on_curve, beside]), np.stack([on_curve, end])
     curves = (curve.curve.counted_from(contact.q), None)
-    made = Joint(name, parts, kind, ("T_s", "T_phi"), frames_1, frames_2, np.zeros(()), evidence, curves=curves)
-    return _with_ends(made, limits)
+    return Joint(name, parts, kind, ("T_s", "T_phi"), frames_1, frames_2, np.zeros(()), evidence, curves=curves)
 
 
-def _flat(
-    name: str,
-    parts: tuple[str, str],
-    plane: ProfilePlane,
-    curve: Placed,
-    contact: ProfilePoint,
-    face: Float[np.ndarray, "2"],
-    limits: GivenLimits | None,
-) -> Joint:
+def _flat(name: str, parts: tuple[str, str], on: _OnProfile, face: Float[np.ndarray, "2"]) -> Joint:
     """Make a cam with a flat follower, whose face passes the point `face` of the plane as assembled."""
+    plane, curve, contact = on
     misfit = float(contact.away(face)[1])
     touches = abs(misfit) <= TOUCHES * curve.size
     on_curve, end = plane.frame(contact), plane.frame(contact, 0.0 if touches else misfit)
@@ -240,8 +236,7 @@ def _flat(
     evidence = _moved(misfit, curve.size) if touches else BY_HAND
     frames_1, frames_2 = np.stack([on_curve, on_curve @ turned]), np.stack([on_curve, end @ turned])
     curves = (curve.curve.counted_from(contact.q), None)
-    made = Joint(name, parts, JointKind.CAM, ("T_s", "T_z"), frames_1, frames_2, np.zeros(()), evidence, curves=curves)
-    return _with_ends(made, limits)
+    return Joint(name, parts, JointKind.CAM, ("T_s", "T_z"), frames_1, frames_2, np.zeros(()), evidence, curves=curves)
 
 
 def _moved(misfit: float, size: float) -> Evidence:

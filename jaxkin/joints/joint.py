@@ -14,10 +14,9 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
-import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Array, Float
 
 from jaxkin._arguments import text
 from jaxkin._pytree import register_leaves
@@ -28,8 +27,6 @@ from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.patches import BicubicSpline, Followed
 from jaxkin.joints.evidence import BY_HAND, Evidence
 from jaxkin.joints.kinds import JointKind
-
-Array = np.ndarray | jax.Array
 
 JointCoordinate = tuple[int, int]
 """(joint, coordinate): the number of a joint in `Linkage.joints`, and that of one of its `coordinates`. A pair (joint,
@@ -55,11 +52,11 @@ class Joint:
     """"revolute", "prismatic", ..., or "contact b" for a contact state of the paper."""
     movements: tuple[str, ...]
     """Keys of `MOVEMENTS`, one a frame."""
-    frames_1: Float[Array, "*batch frames 4 4"]
+    frames_1: Float[Array | np.ndarray, "*batch frames 4 4"]
     """Pose of each frame on the side of part 1, in world coordinates of the assembled pose."""
-    frames_2: Float[Array, "*batch frames 4 4"]
+    frames_2: Float[Array | np.ndarray, "*batch frames 4 4"]
     """Pose of each frame on the side of part 2; equal to `frames_1` unless lengths were changed."""
-    pitch: Float[Array, "*batch"]
+    pitch: Float[Array | np.ndarray, "*batch"]
     """Advance per turn of a screw, in the unit of the mechanism; zero for all others."""
     evidence: Evidence | None = None
     """What the joint is known from; None after JAX has flattened and rebuilt the joint."""
@@ -133,8 +130,8 @@ def joint(
     parts: tuple[str, str],
     kind: JointKind,
     movements: tuple[str, ...],
-    frames: Sequence[Array] | Array,
-    pitch: float | int | Array = 0.0,
+    frames: Sequence[Array | np.ndarray] | Array | np.ndarray,
+    pitch: float | int | Array | np.ndarray = 0.0,
     evidence: Evidence = BY_HAND,
     limits: JointLimits = (),
     curves: tuple[Followed | None, ...] = (),

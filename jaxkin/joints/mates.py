@@ -96,31 +96,31 @@ def _circle_in_plane(one: MateFeature, other: MateFeature, angle: float, length:
     return MateSet(Chain([_ALONE[JointKind.REVOLUTE]], frame(one.point, one.axis)[None]), JointKind.REVOLUTE)
 
 
-Found = tuple[Chain, JointKind] | None
+FoundJoint = tuple[Chain, JointKind] | None
 
 _ALONE = {kind: movement for kind, movement in LOWER_PAIRS.values()}
 """Kinds of lower pairs -> their movements."""
 
 
-def _plane_plane(one: MateFeature, other: MateFeature, angle: float, _: float) -> Found:
+def _plane_plane(one: MateFeature, other: MateFeature, angle: float, _: float) -> FoundJoint:
     if not _parallel(one, other, angle):
         return None
     return _state("a", frame(one.point, one.axis))
 
 
-def _plane_line(plane: MateFeature, line: MateFeature, angle: float, _: float) -> Found:
+def _plane_line(plane: MateFeature, line: MateFeature, angle: float, _: float) -> FoundJoint:
     if abs(float(plane.axis @ line.axis)) > angle:
         return None
     frames = frame(_on_plane(plane, line.point), plane.axis), frame(line.point, line.axis)
     return _state("b", *frames)
 
 
-def _plane_point(plane: MateFeature, point: MateFeature, _angle: float, _length: float) -> Found:
+def _plane_point(plane: MateFeature, point: MateFeature, _angle: float, _length: float) -> FoundJoint:
     frames = frame(_on_plane(plane, point.point), plane.axis), frame(point.point, plane.axis)
     return _state("d", *frames)
 
 
-def _line_line(one: MateFeature, other: MateFeature, angle: float, length: float) -> Found:
+def _line_line(one: MateFeature, other: MateFeature, angle: float, length: float) -> FoundJoint:
     first, second = frame(one.point, one.axis), frame(other.point, other.axis)
     if _parallel(one, other, angle):
         if np.linalg.norm(_away(one, other.point)) <= length:
@@ -132,13 +132,13 @@ def _line_line(one: MateFeature, other: MateFeature, angle: float, length: float
     return _state("g", first, between, second)
 
 
-def _line_point(line: MateFeature, point: MateFeature, _: float, length: float) -> Found:
+def _line_point(line: MateFeature, point: MateFeature, _: float, length: float) -> FoundJoint:
     on_line = np.linalg.norm(_away(line, point.point)) <= length
     frames = frame(line.point, line.axis), frame(point.point, line.axis)
     return _state("j", *frames, region="circle" if on_line else None)
 
 
-def _point_point(one: MateFeature, other: MateFeature, _: float, length: float) -> Found:
+def _point_point(one: MateFeature, other: MateFeature, _: float, length: float) -> FoundJoint:
     offset = other.point - one.point
     if (apart := float(np.linalg.norm(offset))) <= length:
         return _state("o", frame(one.point, one.axis))

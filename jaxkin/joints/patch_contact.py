@@ -10,9 +10,8 @@ from jaxtyping import Float
 from jaxkin._traced import traced
 from jaxkin.geometry.curves import sampled_pieces
 from jaxkin.geometry.patches import BicubicSpline, Patch
+from jaxkin.geometry.pose import Vector
 from jaxkin.joints.profiles import LEAST_POINTS
-
-Vector = Float[np.ndarray, "3"]
 
 SAMPLES = 4
 """Samples of each piece along u and along v from which the nearest point is searched: the normal turns

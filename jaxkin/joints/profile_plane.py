@@ -10,7 +10,7 @@ from jaxtyping import Float
 from jaxkin._traced import traced
 from jaxkin.geometry.pose import Transform, frame
 from jaxkin.joints.axis_frame import Triple, axis_frame
-from jaxkin.joints.profiles import Placed
+from jaxkin.joints.profiles import PlacedProfile
 
 _PERPENDICULAR = 1e-6
 """Largest cosine between the axis of the plane and a direction that is to lie in the plane, as of other joints."""
@@ -80,7 +80,7 @@ def profile_plane(name: str, point: Triple, axis: Triple, direction: Triple | No
     return ProfilePlane(frame(pose[:3, 3], pose[:3, 2], pose[:3, :2] @ x))
 
 
-def profile_point(curve: Placed, q: float) -> ProfilePoint:
+def profile_point(curve: PlacedProfile, q: float) -> ProfilePoint:
     """Find the point and the tangent of a profile at a parameter."""
     at = curve.spline.at(np.array(q))
     return ProfilePoint(q, np.array([at.x, at.y], float), np.array([at.cos, at.sin], float))

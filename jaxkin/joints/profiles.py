@@ -10,7 +10,7 @@ from jaxtyping import Float
 from jaxkin._traced import traced
 from jaxkin.geometry.curves import Curve, CurvePoint, Spline, sampled_pieces
 
-Pair = Float[np.ndarray, "2"]
+Vector2 = Float[np.ndarray, "2"]
 
 LEAST_POINTS = 4
 """Points of a profile at least: as many as a cubic has coefficients."""
@@ -22,7 +22,7 @@ _CONVERGED = 1e-15
 """Step over the length of the curve at which a contact is found: rounding."""
 
 
-class Placed(NamedTuple):
+class PlacedProfile(NamedTuple):
     """A profile in coordinates (x, y) of its plane."""
 
     curve: Curve
@@ -40,7 +40,7 @@ class Placed(NamedTuple):
         return s, self.spline.at(s)
 
 
-def placed_profile(name: str, label: str, given: Any, place: Float[np.ndarray, "3"], closed: bool) -> Placed:
+def placed_profile(name: str, label: str, given: Any, place: Float[np.ndarray, "3"], closed: bool) -> PlacedProfile:
     """Check the points of a profile (ValueError), and place its axes at a pose (x, y, angle) of the plane.
 
     `label` is the name of the argument, for messages. Whether the profile crosses itself is not checked here.
@@ -76,10 +76,10 @@ def placed_profile(name: str, label: str, given: Any, place: Float[np.ndarray, "
             said = f"points {one} and {other} are the same, {points[one].tolist()}: leave one out"
         raise ValueError(f"joint {name!r}: {label}: {said}")
     curve = Curve(points, np.zeros(()), np.asarray(place, float), bool(closed))
-    return Placed(curve, curve.spline())
+    return PlacedProfile(curve, curve.spline())
 
 
-def check_simple(name: str, label: str, placed: Placed) -> None:
+def check_simple(name: str, label: str, placed: PlacedProfile) -> None:
     """Raise ValueError where a profile crosses itself, with the place of the crossing in its own coordinates."""
     from scipy.spatial import KDTree
 
@@ -106,13 +106,13 @@ def check_simple(name: str, label: str, placed: Placed) -> None:
         )
 
 
-def replace_place(placed: Placed) -> Placed:
+def replace_place(placed: PlacedProfile) -> PlacedProfile:
     """Return the profile in its own axes."""
     curve = Curve(placed.curve.points, placed.curve.start, np.zeros(3), placed.curve.closed)
-    return Placed(curve, curve.spline())
+    return PlacedProfile(curve, curve.spline())
 
 
-def nearest_to(placed: Placed, point: Pair) -> float:
+def nearest_to(placed: PlacedProfile, point: Vector2) -> float:
     """Find the parameter of the point of a profile that is nearest to a point of the plane."""
     s, at = placed.samples()
     q = float(s[np.argmin((at.x - point[0]) ** 2 + (at.y - point[1]) ** 2)])
@@ -129,7 +129,7 @@ def nearest_to(placed: Placed, point: Pair) -> float:
     return q
 
 
-def tangent_to(placed: Placed, direction: Pair, point: Pair) -> float | None:
+def tangent_to(placed: PlacedProfile, direction: Vector2, point: Vector2) -> float | None:
     """Find the parameter at which a profile has a direction, where its tangent is nearest to a point of the plane.
 
     None where the profile nowhere has the direction.
@@ -160,7 +160,7 @@ def tangent_to(placed: Placed, direction: Pair, point: Pair) -> float | None:
     return min(found, key=away, default=None)
 
 
-def touching(one: Placed, other: Placed, near: Pair | None) -> tuple[float, float] | None:
+def touching(one: PlacedProfile, other: PlacedProfile, near: Vector2 | None) -> tuple[float, float] | None:
     """Find the parameters at which two profiles have a common normal, near a point, or where they are nearest.
 
     None where there is none near.
@@ -197,6 +197,6 @@ def touching(one: Placed, other: Placed, near: Pair | None) -> tuple[float, floa
     return (float(q[0]), float(q[1])) if np.all(np.abs(scale * misfit) <= 1e-12 * whole.max()) else None
 
 
-def _within(placed: Placed, q: float) -> float:
+def _within(placed: PlacedProfile, q: float) -> float:
     whole = float(placed.spline.knots[-1])
     return q % whole if placed.spline.closed else min(max(q, 0.0), whole)

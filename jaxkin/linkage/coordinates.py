@@ -17,7 +17,7 @@ from jaxkin._traced import traced
 from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.linkage import Linkage
 
-Given = Float[Array, " poses"] | Float[np.ndarray, " poses"]
+InputValues = Float[Array | np.ndarray, " poses"]
 """Displacements of one coordinate, one a pose, radians or lengths of the mechanism; numpy unless JAX traces them."""
 
 
@@ -28,7 +28,7 @@ class Driven(NamedTuple):
     """Number of the joint in `Linkage.joints`."""
     coordinate: int
     """Number of the coordinate in `Joint.coordinates`."""
-    values: Given
+    values: InputValues
 
 
 def resolve(linkage: Linkage, drive: Mapping[str, object]) -> dict[str, Driven]:
@@ -61,7 +61,7 @@ def coordinates(linkage: Linkage, keys: Sequence[str]) -> dict[str, JointCoordin
     return driven
 
 
-def given_values(names: Collection[str], drive: Mapping[str, object]) -> tuple[Given, ...]:
+def given_values(names: Collection[str], drive: Mapping[str, object]) -> tuple[InputValues, ...]:
     """Check the arrays of a drive, and return them in its order; ValueError as in `resolve`.
 
     `names` are the full names of the coordinates in that order, for messages.
@@ -74,7 +74,9 @@ def given_values(names: Collection[str], drive: Mapping[str, object]) -> tuple[G
     return given
 
 
-def with_finite_inputs(given: tuple[Given, ...]) -> tuple[tuple[Given, ...], Bool[Array | np.ndarray, " poses"] | None]:
+def with_finite_inputs(
+    given: tuple[InputValues, ...],
+) -> tuple[tuple[InputValues, ...], Bool[Array | np.ndarray, " poses"] | None]:
     """Replace the inputs of each pose that has NaN or infinity by those of the last finite pose before it.
 
     Poses at the beginning get the inputs of the first finite pose, or zero if no pose is finite. So the branch is
@@ -131,7 +133,7 @@ def _pair(linkage: Linkage, name: str) -> list[str]:
     return [repr(joint.name) for joint in linkage.joints if joint.name.rpartition(":")[0] == name]
 
 
-def _values(key: str, values: Any) -> Given:
+def _values(key: str, values: Any) -> InputValues:
     """Check the displacements of one coordinate and convert them to floats; `key` is its name, for messages."""
     dtype = dtypes.canonicalize_dtype(float)
     if isinstance(values, np.ndarray) and values.dtype == dtype:

@@ -30,7 +30,7 @@ from jaxkin.joints.joint import Joint
 from jaxkin.joints.screws import DEPENDENT
 from jaxkin.linkage.first_order import null_space
 from jaxkin.linkage.host_closure import ClosedLoops
-from jaxkin.linkage.planes import ALIGNED, Axes, elementary_axes, level
+from jaxkin.linkage.planes import ALIGNED, ElementaryAxes, elementary_axes, level
 from jaxkin.topology.structure import LoopGroup, Structure
 
 FAR = 0.05
@@ -66,7 +66,7 @@ def decoupled_plane(joints: Sequence[Joint], structure: Structure, loop_group: L
     return None
 
 
-def _directions(turning: Axes) -> Iterator[np.ndarray]:
+def _directions(turning: ElementaryAxes) -> Iterator[np.ndarray]:
     """Yield the directions of the axes of turns on part 1, those of most turns first."""
     found: list[tuple[np.ndarray, int]] = []
     for _, axis, _ in turning:
@@ -79,7 +79,7 @@ def _directions(turning: Axes) -> Iterator[np.ndarray]:
     yield from (axis for axis, _ in sorted(found, key=lambda each: -each[1]))
 
 
-def _acting_in_plane(axes: tuple[Axes, Axes], normal: np.ndarray) -> tuple[int, ...] | None:
+def _acting_in_plane(axes: tuple[ElementaryAxes, ElementaryAxes], normal: np.ndarray) -> tuple[int, ...] | None:
     """List the columns that act in the plane with a normal; None where an axis is oblique to it."""
     columns = []
     for slides, entries in zip((False, True), axes, strict=True):

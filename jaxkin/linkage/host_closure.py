@@ -36,8 +36,10 @@ _LEAST_TRUST = 1e12
 """Ratio of the damping to the square of the residual above which the residual counts as stationary: even the short
 steps of so much damping do not reduce it."""
 
-Row = Float[np.ndarray, " columns"]
-Rows = Float[np.ndarray, " equations"]
+LoopCoordinates = Float[np.ndarray, " columns"]
+"""Displacements of all coordinates of the loops from the assembled pose: radians and characteristic lengths."""
+ClosureResidual = Float[np.ndarray, " equations"]
+"""What the loops and couplings leave open, as `Travel.residual` has it."""
 
 
 class ScaledChain(NamedTuple):
@@ -63,7 +65,7 @@ class ScaledChain(NamedTuple):
 class Travel(NamedTuple):
     """The quantities found by travelling around the loops, in world coordinates about the centroid, lengths scaled."""
 
-    residual: Rows
+    residual: ClosureResidual
     """Six rows a loop, the displacement that is left open as a twist: `vee(R - R^T)/2` of its rotation, then its
     translation; after those of all loops the `coupling_residual`."""
     jacobian: Float[np.ndarray, "equations columns"]
@@ -166,11 +168,11 @@ class ClosedLoops:
         largest = np.abs(scaled).max()
         return columns, scaled / largest, float(coupling.offset) / largest
 
-    def jacobian(self, q: Row) -> Float[np.ndarray, "equations columns"]:
+    def jacobian(self, q: LoopCoordinates) -> Float[np.ndarray, "equations columns"]:
         """Compute the closure Jacobian at scaled coordinates `q`: see `Travel.jacobian`."""
         return self.travel(q).jacobian
 
-    def closed(self, q: Row, held: Sequence[int] = ()) -> tuple[Row, Travel]:
+    def closed(self, q: LoopCoordinates, held: Sequence[int] = ()) -> tuple[LoopCoordinates, Travel]:
         """Close the loops from scaled coordinates `q` by damped Newton steps of least norm (Levenberg-Marquardt).
 
         A step that does not reduce the merit is refused and damped more, so that loops may begin wide open. Loops that
@@ -197,7 +199,7 @@ class ClosedLoops:
                 trust *= 8.0
         return q, found
 
-    def travel(self, q: Row) -> Travel:
+    def travel(self, q: LoopCoordinates) -> Travel:
         """Travel around all loops at scaled coordinates `q`, each from the part at which it starts."""
         steps = {index: each.displaced(q[self.slices[index]]) for index, each in self.chains.items()}
         places: dict[str, Transform] = {}
@@ -243,7 +245,7 @@ class ClosedLoops:
             coupling_jacobian,
         )
 
-    def _evaluate_couplings(self, q: Row) -> tuple[Rows, Float[np.ndarray, "couplings columns"]]:
+    def _evaluate_couplings(self, q: LoopCoordinates) -> tuple[ClosureResidual, Float[np.ndarray, "couplings columns"]]:
         """Evaluate `Travel.coupling_residual` at scaled coordinates `q`, and its derivatives with respect to these."""
         residual, jacobian = np.zeros(len(self.couplings)), np.zeros((len(self.couplings), len(q)))
         for row, (columns, coefficients, offset) in enumerate(self.couplings):
@@ -255,7 +257,9 @@ class ClosedLoops:
         return residual, jacobian
 
 
-def least_norm(jacobian: Float[np.ndarray, "equations columns"], right: Rows, damping: float) -> Row:
+def least_norm(
+    jacobian: Float[np.ndarray, "equations columns"], right: ClosureResidual, damping: float
+) -> LoopCoordinates:
     """Solve J x = r with least norm; `damping` is relative to the mean square of the rows of J."""
     gram = jacobian @ jacobian.T
     floor = damping * max(float(np.trace(gram)) / max(len(gram), 1), 1e-300)

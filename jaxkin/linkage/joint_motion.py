@@ -19,14 +19,16 @@ from jaxkin.joints.joint import Joint
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.topology.structure import Structure
 
-Displacements = tuple[Float[Array | np.ndarray, "poses _"], ...]
+JointDisplacements = tuple[Float[Array, "poses _"], ...]
 """For each joint of `Linkage.joints` its coordinates: radians, and lengths in the unit of the mechanism."""
 
 MAX_PADDED_POSES = 8192
 """Most poses of a range that is padded: copying a longer one takes as long as computing it."""
 
 
-def part_transforms(linkage: Linkage, displacements: Displacements) -> tuple[Float[Array, "poses 4 4"], ...]:
+def part_transforms(
+    linkage: Linkage, displacements: tuple[Float[Array | np.ndarray, "poses _"], ...]
+) -> tuple[Float[Array, "poses 4 4"], ...]:
     """Compute the displacements of all parts from the assembled pose, in the order of `linkage.parts`, in the world.
 
     Ranges of known numbers are padded to a few lengths, so that those of similar length share a compiled program.
@@ -42,13 +44,13 @@ def part_transforms(linkage: Linkage, displacements: Displacements) -> tuple[Flo
     return tuple(jnp.asarray(np.asarray(each)[:poses]) for each in found)
 
 
-def _on_several_devices(displacements: Displacements) -> bool:
+def _on_several_devices(displacements: tuple[Array | np.ndarray, ...]) -> bool:
     return any(isinstance(q, jax.Array) and len(q.devices()) > 1 for q in displacements)
 
 
 @partial(jax.jit, static_argnums=0)
 def transforms(
-    structure: Structure, joints: tuple[Joint, ...], displacements: tuple[Float[Array, "poses _"], ...]
+    structure: Structure, joints: tuple[Joint, ...], displacements: JointDisplacements
 ) -> tuple[Float[Array, "poses 4 4"], ...]:
     """Compute the displacements of all parts, as `part_transforms`, in a program for their number of poses."""
     poses, dtype = displacements[0].shape[0], displacements[0].dtype
@@ -58,7 +60,7 @@ def transforms(
 
 
 def moving_parts(
-    structure: Structure, joints: tuple[Joint, ...], displacements: tuple[Float[Array, "poses _"], ...]
+    structure: Structure, joints: tuple[Joint, ...], displacements: JointDisplacements
 ) -> dict[str, Rigid]:
     """Compute the displacements of all parts that are not fixed along the tree from the fixed parts.
 
@@ -85,7 +87,7 @@ def _numbers_of(q: Float[Array, "poses _"]) -> tuple[Float[Array, "poses _"], Bo
 
 
 def point_path(
-    linkage: Linkage, displacements: Displacements, part: str, point: Float[Array, "3"]
+    linkage: Linkage, displacements: JointDisplacements, part: str, point: Float[Array, "3"]
 ) -> Float[Array, "poses 3"]:
     """Compute the path of a point of a part, given where it is in the assembled pose, in the world.
 

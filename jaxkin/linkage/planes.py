@@ -109,18 +109,18 @@ def _origins(joint: Joint) -> np.ndarray:
     ).reshape(-1, 3)
 
 
-Axes = list[tuple[int, np.ndarray, np.ndarray]]
+ElementaryAxes = list[tuple[int, np.ndarray, np.ndarray]]
 """(column of a coordinate, direction of its axis on part 1, direction on part 2), both unit vectors in the world."""
 
 
-def elementary_axes(joints: Sequence[Joint], *, of_balls: bool = False) -> tuple[Axes, Axes] | None:
+def elementary_axes(joints: Sequence[Joint], *, of_balls: bool = False) -> tuple[ElementaryAxes, ElementaryAxes] | None:
     """List the axes of rotations and the axes of translations in the assembled pose.
 
     None where a joint is a screw, or follows a curve or a surface, where its axes are no straight lines; and where it
     is a ball, unless its three axes count as those `of_balls`.
     """
-    turning: Axes = []
-    sliding: Axes = []
+    turning: ElementaryAxes = []
+    sliding: ElementaryAxes = []
     column = 0
     for joint in joints:
         sides = np.asarray(joint.frames_1, float), np.asarray(joint.frames_2, float)
@@ -136,7 +136,7 @@ def elementary_axes(joints: Sequence[Joint], *, of_balls: bool = False) -> tuple
     return turning, sliding
 
 
-def _one_direction(turning: Axes) -> bool:
+def _one_direction(turning: ElementaryAxes) -> bool:
     """Tell whether there are axes of rotations, and all of them are parallel, on either part of each joint."""
     return bool(turning) and all(
         np.linalg.norm(np.cross(turning[0][1], axis)) <= ALIGNED for _, *axes in turning for axis in axes

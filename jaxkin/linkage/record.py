@@ -72,6 +72,7 @@ def from_record(record: Mapping[str, Any]) -> Linkage:
 
 
 def _of_joint(joint: Joint) -> dict[str, Any]:
+    """Write a joint; what is as by default is left out: equal frames of part 2, no pitch, no curves, no limits."""
     record: dict[str, Any] = {
         "name": joint.name,
         "parts": list(joint.parts),
@@ -91,6 +92,7 @@ def _of_joint(joint: Joint) -> dict[str, Any]:
 
 
 def _joint(record: Mapping[str, Any]) -> Joint:
+    """Read a joint that `_of_joint` wrote; its evidence is not in the record, and None."""
     frames_1 = _frames(record, "frames_1")
     limits = tuple(
         (-inf if low is None else float(low), inf if high is None else float(high))
@@ -111,6 +113,7 @@ def _joint(record: Mapping[str, Any]) -> Joint:
 
 
 def _of_curve(curve: Followed) -> dict[str, Any]:
+    """Write a curve or a surface that a joint follows: its points, and where the assembled pose is on it."""
     found: dict[str, Any] = {
         "points": np.asarray(curve.points, float).tolist(),
         "start": np.asarray(curve.start, float).tolist(),

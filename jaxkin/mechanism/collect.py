@@ -10,12 +10,12 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from jaxkin.linkage.coordinates import Given
+from jaxkin.linkage.coordinates import InputValues
 from jaxkin.linkage.first_order import Columns
 from jaxkin.solve.execution.known_numbers import Outcome
 from jaxkin.solve.status import SEVERITY, Status, closes_before_limits, of_severity, severity
 
-Solution = tuple[Float[Array, "_ _"], Outcome]
+GroupSolution = tuple[Float[Array, "_ _"], Outcome]
 """Displacements of the columns of a loop group, and what became of the poses."""
 
 
@@ -50,9 +50,9 @@ class Collected(NamedTuple):
 
 def collect(
     sources: DisplacementSources,
-    values: tuple[Given, ...],
+    values: tuple[InputValues, ...],
     finite: Bool[Array | np.ndarray, " poses"] | None,
-    solutions: list[Solution],
+    solutions: list[GroupSolution],
 ) -> Collected:
     """Collect inputs, displacements, status and closure residual of each pose. All are NaN where an input is not
     `finite`."""

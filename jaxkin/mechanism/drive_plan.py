@@ -26,9 +26,9 @@ from jaxkin.mechanism.collect import DisplacementSources
 from jaxkin.mechanism.formula_sweep import FormulaSweep
 from jaxkin.mobility.infeasible_drive import InfeasibleDrive, dead_point, infeasible_drive
 from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
-from jaxkin.solve.closed_form.assembled_axes import Axes, assembled_axes
+from jaxkin.solve.closed_form.assembled_axes import AssembledAxes, assembled_axes
 from jaxkin.solve.closed_form.group_formulas import why_not_all
-from jaxkin.solve.closed_form.line import Line, full_turn
+from jaxkin.solve.closed_form.input_line import InputLine, full_turn
 from jaxkin.solve.system.from_linkage import coupled_places, group_joints, group_system, solved_coordinates
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
@@ -61,10 +61,10 @@ class DrivenLoopGroup(NamedTuple):
     """Numbers of its inputs among those of the drive, in the order of `system.driven`; none where its loops are only to
     be closed."""
     joints: Joints
-    axes: Axes | None
+    axes: AssembledAxes | None
     """The axes of the assembled pose, from which formulas compute the poses; None where they are traced, or where a
     group has no formula: see `jaxkin.solve.closed_form`."""
-    line: Line | None
+    line: InputLine | None
     """What the formulas say of a full turn of the input; None where that is no angle, or where there are no `axes`."""
     given: GivenLoops | None
     """The loops of the joints as they were given, whose residual poses are brought to the least of; None where these

@@ -19,11 +19,11 @@ from jaxtyping import Array, Bool, Float
 
 from jaxkin._traced import traced
 from jaxkin.joints.joint import JointCoordinate
-from jaxkin.linkage.coordinates import Given
+from jaxkin.linkage.coordinates import InputValues
 from jaxkin.mechanism.collect import Collected, DisplacementSources
-from jaxkin.solve.closed_form.assembled_axes import Axes
+from jaxkin.solve.closed_form.assembled_axes import AssembledAxes
 from jaxkin.solve.closed_form.formula_displacements import joint_displacements
-from jaxkin.solve.closed_form.line import Line, PassedLine, passed_range
+from jaxkin.solve.closed_form.input_line import InputLine, PassedLine, passed_range
 from jaxkin.solve.closed_form.range_by_formula import find_poses_by_formula, line_of
 from jaxkin.solve.device import group_for_device
 from jaxkin.solve.execution.compiler import count_trace, jit_options
@@ -43,7 +43,7 @@ the host takes 0.1 ms longer, to trace and compile that program some 90 of the p
 class LoopGroupNumbers(NamedTuple):
     """The numbers of a loop group that its formulas need, on the device."""
 
-    axes: Axes
+    axes: AssembledAxes
     joints: Joints | None
     """Only where balls need them."""
 
@@ -51,7 +51,7 @@ class LoopGroupNumbers(NamedTuple):
 class _KnownLine(NamedTuple):
     """A line of known numbers, and the range of inputs in which every pose that closes is on the branch."""
 
-    line: Line
+    line: InputLine
     passed: PassedLine
     """What is asked of the line within that range."""
     lowest: float
@@ -62,7 +62,7 @@ class _KnownLine(NamedTuple):
         """Copy to the device what programs are given."""
         return self._replace(line=jax.device_put(self.line), passed=jax.device_put(self.passed))
 
-    def for_inputs(self, values: np.ndarray) -> Line | PassedLine:
+    def for_inputs(self, values: np.ndarray) -> InputLine | PassedLine:
         """Choose what the program is given for inputs in radians or characteristic lengths."""
         endless = self.lowest == -np.inf
         return self.passed if endless or (self.lowest <= values.min() and values.max() <= self.highest) else self.line
@@ -87,8 +87,8 @@ class FormulaSweep:
         sources: DisplacementSources,
         systems: tuple[LoopSystem, ...],
         inputs: tuple[int, ...],
-        axes: Sequence[Axes],
-        turn_lines: Sequence[Line | None],
+        axes: Sequence[AssembledAxes],
+        turn_lines: Sequence[InputLine | None],
         joints: Sequence[Joints],
     ):
         """`inputs` are for each loop group the number of its input, `turn_lines` its line of a full turn, or None."""
@@ -104,7 +104,7 @@ class FormulaSweep:
         self.program, self.single = _program(systems, inputs), _single(sources, systems, inputs)
 
     def solve(
-        self, values: tuple[Given, ...], finite: Bool[np.ndarray, " poses"] | None, tolerance: ClosureTolerance
+        self, values: tuple[InputValues, ...], finite: Bool[np.ndarray, " poses"] | None, tolerance: ClosureTolerance
     ) -> Collected | None:
         """Find the poses for finite known `values`; None where the formulas do not prove that all of them are closed.
 
@@ -142,7 +142,7 @@ class FormulaSweep:
             for turn, which in zip(self.turn_lines, self.inputs, strict=True)
         )
 
-    def _line(self, number: int, values: np.ndarray) -> Line | PassedLine:
+    def _line(self, number: int, values: np.ndarray) -> InputLine | PassedLine:
         """Choose the line of the input of a loop group: the one that is kept, or that of a displacement."""
         if (turn := self.turn_lines[number]) is not None:
             return turn.for_inputs(values)
@@ -160,7 +160,7 @@ class FormulaSweep:
         return _collect_program(self.sources, several, found, rows, finite)
 
 
-def _known_line(system: LoopSystem, line: Line) -> _KnownLine:
+def _known_line(system: LoopSystem, line: InputLine) -> _KnownLine:
     """Find the range of inputs that the motion passes without doubt along a line."""
     return _KnownLine(line, PassedLine(line.signs, line.windings), *passed_range(system, line))
 
@@ -177,7 +177,7 @@ def _find(
     systems: tuple[LoopSystem, ...],
     which: tuple[int, ...],
     numbers: Sequence[LoopGroupNumbers],
-    lines: Sequence[Line | PassedLine],
+    lines: Sequence[InputLine | PassedLine],
     rows: Float[Array, "driven poses"],
     tolerance: ClosureTolerance,
 ) -> _Found:

@@ -19,8 +19,9 @@ from jaxtyping import Array, Float, Int
 
 from jaxkin._traced import traced
 from jaxkin.linkage.first_order import Columns
+from jaxkin.linkage.joint_motion import JointDisplacements
 from jaxkin.mechanism.drive_plan import DrivePlan, plan_drive
-from jaxkin.solve.closed_form.assembled_axes import Axes
+from jaxkin.solve.closed_form.assembled_axes import AssembledAxes
 from jaxkin.solve.closed_form.known_poses_by_formula import known_displacements_by_formula
 from jaxkin.solve.range.known_poses import known_displacements
 from jaxkin.solve.status import Status, is_closed_on_branch
@@ -32,10 +33,9 @@ if TYPE_CHECKING:
 
 Inputs = dict[str, Float[Array | np.ndarray, " poses"]]
 """By "joint.coordinate" the displacements of the driven coordinates, or their derivatives of one order by time."""
-Rows = tuple[Float[Array, "poses _"], ...]
-"""For each joint of `mechanism.joints` an array with a row a pose: displacements of its coordinates, radians or lengths
-in the unit of the mechanism, their derivatives, or what the joint transmits."""
-Follow = Callable[[Inputs], Rows]
+JointRates = tuple[Float[Array, "poses _"], ...]
+"""For each joint of `Linkage.joints` the derivatives of its displacements of one order by time."""
+Follow = Callable[[Inputs], JointDisplacements]
 """The displacements of all joints as a function of the inputs: see `follow`."""
 
 
@@ -59,14 +59,16 @@ class KnownDrive(NamedTuple):
     driven: tuple[tuple[str, int, int], ...]
     """Name, joint and coordinate of every input."""
     loop_groups: tuple[KnownLoopGroup, ...]
+    unit: str
+    """Of all lengths."""
 
 
 class KnownMotion(NamedTuple):
     """The numbers of a motion that its derivatives follow from."""
 
-    numbers: tuple[Joints | Axes, ...]
+    numbers: tuple[Joints | AssembledAxes, ...]
     """Of every loop group of the `KnownDrive`: axes where its derivatives are those of formulas, else joints."""
-    displacements: Rows
+    displacements: JointDisplacements
     status: Int[Array, " poses"]
 
 
@@ -81,10 +83,11 @@ def known_motion(motion: Motion) -> tuple[KnownDrive, KnownMotion]:
     )
     driven = tuple((name, *place) for name, place in plan.driven.items())
     numbers = _numbers(plan, motion)[: len(loop_groups)]
-    return KnownDrive(plan.freedoms, driven, loop_groups), KnownMotion(numbers, motion.displacements, motion.status)
+    drive = KnownDrive(plan.freedoms, driven, loop_groups, motion.mechanism.unit)
+    return drive, KnownMotion(numbers, motion.displacements, motion.status)
 
 
-def _numbers(plan: DrivePlan, motion: Motion) -> tuple[Joints | Axes, ...]:
+def _numbers(plan: DrivePlan, motion: Motion) -> tuple[Joints | AssembledAxes, ...]:
     """Choose the numbers from which the derivatives of each loop group follow: the axes where no pose is singular."""
     joints = tuple(each.joints for each in plan.loop_groups)
     if (formulas := plan.formula_sweep) is None or traced(motion.inputs) or not formulas.passes(motion.inputs):
@@ -106,7 +109,7 @@ def follow(drive: KnownDrive, known: KnownMotion) -> Follow:
     finite = known.status != Status.NONFINITE.value
     at = tuple(jnp.where(finite[:, None], lax.stop_gradient(rows), 0.0) for rows in known.displacements)
 
-    def displacements(inputs: Inputs) -> Rows:
+    def displacements(inputs: Inputs) -> JointDisplacements:
         columns = {}
         for name, joint, k in drive.driven:
             given = inputs[name]
@@ -115,7 +118,7 @@ def follow(drive: KnownDrive, known: KnownMotion) -> Follow:
             rows = jnp.stack([at[joint][:, k] for joint, k in loop_group.columns])
             given = [jnp.where(finite, inputs[name], 0.0) for name in loop_group.inputs]
             given = jnp.stack(given) if given else jnp.zeros((0, len(finite)), rows.dtype)
-            if isinstance(numbers, Axes):
+            if isinstance(numbers, AssembledAxes):
                 found = known_displacements_by_formula(loop_group.system, numbers, given, rows, status)
             else:
                 found = known_displacements(loop_group.system, numbers, given, rows, status, loop_group.refined)

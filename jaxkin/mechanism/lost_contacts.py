@@ -17,7 +17,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from jaxkin.contacts.contact import Contact
-from jaxkin.contacts.separation import Displacements, Gaps
+from jaxkin.contacts.separation import FaceDisplacements, Gaps
 from jaxkin.contacts.tolerance import default_length
 from jaxkin.geometry.part import Face
 from jaxkin.joints.combine import combine
@@ -121,7 +121,7 @@ def _on_one(face: Face, other: Face, length: float) -> bool:
 
 
 def _of_joint(
-    joint: Joint, contacts: Sequence[Contact], moved: Displacements, setting: FaceSetting
+    joint: Joint, contacts: Sequence[Contact], moved: FaceDisplacements, setting: FaceSetting
 ) -> list[LostContact]:
     """Find the contacts of a joint that are lost, over the displacements of part 2 of the joint."""
     gaps = [gaps_of(joint, contact, moved, setting) for contact in contacts]
@@ -152,7 +152,9 @@ def _left(contacts: Sequence[Contact], noise: Noise) -> str:
     return pair.kind if pair else ""
 
 
-def moved_second(joint: Joint, contact: Contact, moved: Displacements, setting: FaceSetting) -> Displacements | None:
+def moved_second(
+    joint: Joint, contact: Contact, moved: FaceDisplacements, setting: FaceSetting
+) -> FaceDisplacements | None:
     """Compute the displacements of face 2 of a contact relative to face 1, from those of part 2 of the joint.
 
     None where the contact is not between the two bodies of the joint.
@@ -164,7 +166,7 @@ def moved_second(joint: Joint, contact: Contact, moved: Displacements, setting: 
     return moved if sides == ends else inverses(moved)
 
 
-def gaps_of(joint: Joint, contact: Contact, moved: Displacements, setting: FaceSetting) -> Gaps:
+def gaps_of(joint: Joint, contact: Contact, moved: FaceDisplacements, setting: FaceSetting) -> Gaps:
     """Measure how far the faces of a contact, and all that continue them, are apart.
 
     -inf where the contact state has no measure of a gap, or where the joint moves other bodies than those in contact.

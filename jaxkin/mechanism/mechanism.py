@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from jaxkin.mechanism.pose import Pose
     from jaxkin.mechanism.reassembly import Reassembly
     from jaxkin.mechanism.stream import Stream
-    from jaxkin.mechanism.targets import Key
+    from jaxkin.mechanism.targets import DriveKey
 
 
 @dataclass(frozen=True, eq=False)
@@ -257,7 +257,7 @@ class Mechanism:
 
         return save_mechanism(self, path)
 
-    def plan(self, drive: Iterable[Key]) -> Plan:
+    def plan(self, drive: Iterable[DriveKey]) -> Plan:
         """Tell what a drive of these coordinates moves, and in which order: see `jaxkin.mechanism.plan.plan`."""
         from jaxkin.mechanism.plan import plan
 

@@ -7,7 +7,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -182,15 +182,15 @@ class Motion:
                 f"{', '.join(self.inputs)}: traced by JAX, its numbers are known outside of jit, vmap and grad"
             )
         counts = np.bincount(np.asarray(self.status), minlength=len(Status))
-        within = first_within(self)
-        worst, lost, beyond = largest_residuals(self), self.lost_contacts, breaches(self)
-        told = tally(self.mechanism, self.inputs, counts, worst, lost, beyond, within, _closed_intervals(self))
+        found = Tally(counts, largest_residuals(self), self.lost_contacts, breaches(self))
+        found = found._replace(within=first_within(self), intervals=_closed_intervals(self))
+        told = tell(found, self.mechanism, self.inputs)
         if not any(joint.curves for joint in self.mechanism.all_joints):
             return told
         from jaxkin.effects.curve_contacts import curve_contacts
 
-        found = curve_contacts(self)
-        return told if found.holds else "\n  ".join([told, *str(found).splitlines()])
+        followed = curve_contacts(self)
+        return told if followed.holds else "\n  ".join([told, *str(followed).splitlines()])
 
 
 def as_point(point: Sequence[float | int] | np.ndarray | Array) -> Float[Array, "3"]:
@@ -239,34 +239,41 @@ def largest_residuals(motion: Motion) -> Float[np.ndarray, " status"]:
     return np.array([residual[status == each].max(initial=0.0) for each in Status])
 
 
-def tally(
-    mechanism: Mechanism,
-    inputs: Mapping[str, np.ndarray | Array],
-    counts: Int[np.ndarray, " status"],
-    largest: Float[np.ndarray, " status"],
-    lost: Sequence[LostContact],
-    beyond: Sequence[Breach],
-    within: int | None = None,
-    intervals: str = "",
-) -> str:
+class Tally(NamedTuple):
+    """What became of the poses of a motion, or of all chunks of a stream."""
+
+    counts: Int[np.ndarray, " status"]
+    """How many have each status."""
+    largest: Float[np.ndarray, " status"]
+    """The largest closure residual of those of each status."""
+    lost: Sequence[LostContact]
+    beyond: Sequence[Breach]
+    """The limits of joints that they pass."""
+    within: int | None = None
+    """That of `limit_report`."""
+    intervals: str = ""
+    """Where poses are closed, in words; empty where all or none are."""
+
+
+def tell(found: Tally, mechanism: Mechanism, inputs: Mapping[str, np.ndarray | Array]) -> str:
     """Tell in words what became of poses: how many of each status, the largest residual of closed ones, limits passed,
-    faces left. `within` is that of `limit_report`, `intervals` says where they are closed if they are not everywhere.
-    """
+    faces left."""
     from jaxkin.mechanism.lost_contact_report import lost_contact_report
 
-    lines = [f"Motion of {len(mechanism.parts)} parts over {counts.sum()} poses, driven by {', '.join(inputs)}"]
+    lines = [f"Motion of {len(mechanism.parts)} parts over {found.counts.sum()} poses, driven by {', '.join(inputs)}"]
+    counts = found.counts
     lines += [f"  {counts[status]:>6}  {status.name}: {status.message}" for status in Status if counts[status]]
-    lines += [f"  {intervals}"] if intervals else []
+    lines += [f"  {found.intervals}"] if found.intervals else []
     driven = [coordinate(mechanism.linkage, name) for name in inputs]
     if counts[Status.STALLED] and (why := dead_point(mechanism.linkage, driven)):
         lines.append(f"  {why}")
     for status, which in ((Status.CLOSED, "closed"), (Status.MISFIT, "misfit")):
         if counts[status]:
-            lines.append(f"  largest closure residual of the {which} poses: {largest[status]:.1e}")
+            lines.append(f"  largest closure residual of the {which} poses: {found.largest[status]:.1e}")
     if free := undriven_freedoms(mechanism.linkage, driven):
         lines.append(f"  freedoms without a drive move as little as they can; it could be {listed(free)}")
-    lines += [f"  {line}" for line in limit_report(beyond, mechanism, inputs, within)]
-    lines += [f"  {line}" for line in lost_contact_report(lost, mechanism, inputs)]
+    lines += [f"  {line}" for line in limit_report(found.beyond, mechanism, inputs, found.within)]
+    lines += [f"  {line}" for line in lost_contact_report(found.lost, mechanism, inputs)]
     return "\n".join(lines)
 
 

@@ -14,7 +14,7 @@ from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.describe import why_infeasible
 from jaxkin.mechanism.drive_plan import DrivePlan, plan_drive
 from jaxkin.mechanism.plan_steps import Step, loop_group_steps
-from jaxkin.mechanism.targets import Key, names_with_targets
+from jaxkin.mechanism.targets import DriveKey, names_with_targets
 from jaxkin.mobility.infeasible_drive import undriven_freedoms
 from jaxkin.mobility.open_loops import check_closed
 from jaxkin.topology.elements import StructureElement
@@ -49,7 +49,7 @@ class Plan:
         return "\n".join([*lines, *(f"  {text}" for text in self.notes)])
 
 
-def plan(mechanism: Mechanism, drive: Iterable[Key]) -> Plan:
+def plan(mechanism: Mechanism, drive: Iterable[DriveKey]) -> Plan:
     """Plan a drive, given by the names of coordinates as in `sweep`; a drive with its values will do as well.
 
     Raises ValueError for names that are not there, for none, and where the given pose is open: see `Mechanism.close`.

@@ -1,4 +1,4 @@
-"""The steps of a plan: the blocks of the solver's equations, told by the names of joints, parts and coordinates."""
+"""Describe the steps of a plan, the blocks of the solver's equations, by names of joints, parts and coordinates."""
 
 from __future__ import annotations
 
@@ -90,6 +90,7 @@ def loop_group_steps(linkage: Linkage, loop_group: DrivenLoopGroup, first: int) 
 
 
 def _freedoms(linkage: Linkage, loop_group: DrivenLoopGroup) -> LoopFreedoms:
+    """Look up the freedoms of the loops of a loop group."""
     return loop_freedoms(linkage)[linkage.structure.loop_groups.index(loop_group.members)]
 
 
@@ -120,6 +121,10 @@ def _step(
     freedoms: LoopFreedoms | None,
     after: tuple[int, ...],
 ) -> Step:
+    """Describe the step of group `number`, once those of `after` are solved.
+
+    Ranks are those of all its loops: what a cut at balls takes away (`RANK_OF_CUT`) is no equation of the block.
+    """
     system, block = loop_group.system, blocks_of_groups(loop_group.system)[number]
     joints, loops = linkage.joints, _loops(loop_group, number)
     cuts = [system.cuts[loop] for loop in loops]
@@ -160,6 +165,7 @@ def _method(loop_group: DrivenLoopGroup, number: int) -> tuple[str, str]:
 
 
 def _names(linkage: Linkage, loop_group: DrivenLoopGroup, block: EquationBlock) -> tuple[str, ...]:
+    """List the full names of the coordinates that a block is solved for."""
     places = (loop_group.columns[column] for column in block.columns)
     return tuple(linkage.joints[joint].full_names[k] for joint, k in places)
 

@@ -16,7 +16,7 @@ from jaxkin._arguments import by_name
 from jaxkin._named import Named
 from jaxkin._traced import traced
 from jaxkin.mechanism.motion import Motion
-from jaxkin.mechanism.targets import Key, Target
+from jaxkin.mechanism.targets import DriveKey, Target
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +57,7 @@ class Pose:
 jax.tree_util.register_dataclass(Pose, data_fields=["motion"], meta_fields=[])
 
 
-def one_pose(drive: Mapping[Any, object]) -> dict[Key, Array | np.ndarray]:
+def one_pose(drive: Mapping[Any, object]) -> dict[DriveKey, Array | np.ndarray]:
     """Make the drive of one pose a drive of a range of one; ValueError where it does not give one number each."""
     ranges = {}
     for name, value in by_name(drive, "driven displacements", "{'A': 0.3}").items():

@@ -13,6 +13,7 @@ from dataclasses import astuple, dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from jaxtyping import Float
 
 from jaxkin._arguments import several
 from jaxkin._names import listed
@@ -21,7 +22,7 @@ from jaxkin.geometry.pose import Transform, turned_by
 from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.closed_loops import closed_loops
 from jaxkin.linkage.coordinates import coordinate
-from jaxkin.linkage.host_closure import ClosedLoops, Row
+from jaxkin.linkage.host_closure import ClosedLoops, LoopCoordinates
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.placed_at import placed_at
 from jaxkin.mobility.alignment import asked_noise, extent
@@ -69,7 +70,7 @@ class Reassembly:
     """What stays open; None where nothing does."""
     places: Mapping[str, Transform] = field(default_factory=dict)
     """Displacement (4, 4) of each part from the given pose, in world coordinates; empty where no part was moved."""
-    coordinates: Mapping[str, Row] = field(default_factory=dict)
+    coordinates: Mapping[str, Float[np.ndarray, " _"]] = field(default_factory=dict)
     """Displacement of each joint from the given pose, by name, a number for each of its coordinates; empty likewise."""
 
     def __str__(self) -> str:
@@ -144,7 +145,7 @@ class _ClosedGroup:
     """What became of the loops of a loop group."""
 
     loops: ClosedLoops
-    q: Row
+    q: LoopCoordinates
     """The scaled coordinates found; zero where the loops are closed as they are given."""
     held: list[int]
     """Columns that stay as they are given."""

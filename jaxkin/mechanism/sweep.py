@@ -17,8 +17,8 @@ from jaxkin._arguments import by_name, yes_or_no
 from jaxkin._traced import inside_trace, traced
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.trig import TURN
-from jaxkin.linkage.coordinates import Given, given_values, named, with_finite_inputs
-from jaxkin.mechanism.collect import Collected, DisplacementSources, Solution, collect
+from jaxkin.linkage.coordinates import InputValues, given_values, named, with_finite_inputs
+from jaxkin.mechanism.collect import Collected, DisplacementSources, GroupSolution, collect
 from jaxkin.mechanism.describe import why_infeasible
 from jaxkin.mechanism.drive_plan import DrivenLoopGroup, DrivePlan, plan_drive
 from jaxkin.mechanism.joint_limits import with_limited
@@ -144,8 +144,8 @@ def _motion(mechanism: Mechanism, plan: DrivePlan, found: Collected, options: So
 
 
 def _of_least_residual(
-    loop_groups: Sequence[DrivenLoopGroup], solutions: Sequence[Solution], asked: ClosureTolerance
-) -> tuple[list[DrivenLoopGroup], list[Solution]]:
+    loop_groups: Sequence[DrivenLoopGroup], solutions: Sequence[GroupSolution], asked: ClosureTolerance
+) -> tuple[list[DrivenLoopGroup], list[GroupSolution]]:
     """Replace solutions of ideal joints by the poses of least residual of the joints that were given; of loop groups
     whose given joints disagree (`DrivenLoopGroup.given`)."""
     every, found = list(loop_groups), list(solutions)
@@ -162,7 +162,7 @@ def _of_least_residual(
     return every, found
 
 
-def _largest_angle(driven: Iterable[str], values: Sequence[Given]) -> float:
+def _largest_angle(driven: Iterable[str], values: Sequence[InputValues]) -> float:
     """Find the largest driven angle, radians, of numbers that are known; zero where it is within a turn, or traced."""
     angles = [
         np.abs(np.asarray(each))
@@ -206,7 +206,7 @@ def _whole_collect():
     return jax.jit(collect, static_argnums=0, **jit_options())
 
 
-def padded(rows: list[Given]) -> Float[Array | np.ndarray, "driven padded"]:
+def padded(rows: list[InputValues]) -> Float[Array | np.ndarray, "driven padded"]:
     """Repeat the last pose up to one of few lengths, so that ranges of similar length share a compiled program.
 
     Lengths are powers of two from 32 to 256 poses, above that multiples of an eighth of one, above 32768 of a 32nd.

@@ -79,7 +79,7 @@ def orientation(part: str) -> Target:
     return Target(text(part, "the part of a target"), "orientation")
 
 
-Key = str | Target
+DriveKey = str | Target
 
 
 def with_targets(mechanism: Mechanism, drive: Mapping[Any, Any]) -> tuple[Mechanism, Mapping[str, Any]]:
@@ -100,7 +100,7 @@ def with_targets(mechanism: Mechanism, drive: Mapping[Any, Any]) -> tuple[Mechan
     return found, result
 
 
-def names_with_targets(mechanism: Mechanism, keys: Iterable[Key]) -> tuple[Mechanism, list[str]]:
+def names_with_targets(mechanism: Mechanism, keys: Iterable[DriveKey]) -> tuple[Mechanism, list[str]]:
     """Add the joints of targets to a mechanism, as `with_targets` does, for a drive without values."""
     keys = list(keys)
     targets = [key for key in keys if isinstance(key, Target)]

@@ -26,6 +26,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.pose import Vector
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.planes import ALIGNED
 from jaxkin.topology.components import connected
@@ -41,8 +42,7 @@ _DEPENDENT = 1e-4
 _ITERATIONS = 4
 """Steps of Newton's method: three take a relative error of 1e-3 below rounding."""
 
-Vector = Float[np.ndarray, "3"]
-Moves = Mapping[int, Vector]
+PinDisplacements = Mapping[int, Vector]
 """Displacements of the pins of joints, by number of the joint; the others stay where they are."""
 
 
@@ -64,7 +64,7 @@ class Link(NamedTuple):
     across: Vector | None = None
     """Direction in which the distance is measured, with a sign; None for that of the axes from each other."""
 
-    def length(self, moves: Moves) -> tuple[float, Vector]:
+    def length(self, moves: PinDisplacements) -> tuple[float, Vector]:
         """Measure the link after moves of its pins, and differentiate it by the move of the second one."""
         one, other = (pin.point + moves.get(pin.joint, 0.0) for pin in (self.first, self.second))
         apart, normal = other - one, self.first.direction
@@ -81,7 +81,7 @@ class FlatLoop(NamedTuple):
     links: tuple[Link, ...]
     signs: Float[np.ndarray, "sums links"]
 
-    def sums(self, moves: Moves) -> Float[np.ndarray, " sums"]:
+    def sums(self, moves: PinDisplacements) -> Float[np.ndarray, " sums"]:
         """Compute the sums of the links after moves of pins."""
         return self.signs @ np.array([link.length(moves)[0] for link in self.links])
 
@@ -146,7 +146,9 @@ def laid_flat(
     return None
 
 
-def _slopes(loop: FlatLoop, moves: Moves, column: Mapping[int, int], count: int) -> Float[np.ndarray, "sums columns"]:
+def _slopes(
+    loop: FlatLoop, moves: PinDisplacements, column: Mapping[int, int], count: int
+) -> Float[np.ndarray, "sums columns"]:
     """Differentiate the sums of a loop by the moves of pins, of each from its first column on."""
     by_move = np.zeros((len(loop.links), count))
     for row, link in zip(by_move, loop.links, strict=True):

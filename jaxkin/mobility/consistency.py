@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from jaxkin.linkage.first_order import LARGEST_UNCERTAIN, SPREAD, null_space
-from jaxkin.linkage.host_closure import ClosedLoops, Row, Rows
+from jaxkin.linkage.host_closure import ClosedLoops, ClosureResidual, LoopCoordinates
 
 STEPS = (0.3, 0.1, 0.03)
 """Displacements from the assembled pose, radians or characteristic lengths, tried in turn until the loops nearly close.
@@ -31,8 +31,8 @@ _FAR = 0.03
 class Beside(NamedTuple):
     """A pose at a finite distance from the assembled one."""
 
-    coordinates: Row
-    residual: Rows
+    coordinates: LoopCoordinates
+    residual: ClosureResidual
     """Misfits of the loops (`Travel.residual`, six rows a loop) that only directions due to noise could reduce."""
     moved: float
     """Largest change of a coordinate from the assembled pose, over the displacement that was tried (`STEPS`)."""
@@ -52,7 +52,7 @@ def rounding(loops: ClosedLoops) -> float:
     return eps * (10.0 * np.sqrt(len(loops.loop_group.loops)) + 16.0 * float(np.abs(loops.centre).max()) / loops.length)
 
 
-def nearest_closed(loops: ClosedLoops, q: Row, least: float) -> tuple[Row, Rows]:
+def nearest_closed(loops: ClosedLoops, q: LoopCoordinates, least: float) -> tuple[LoopCoordinates, ClosureResidual]:
     """Find the coordinates of least residual near `q`; returns them with the residual there (`Travel.residual`).
 
     The steps are Gauss-Newton steps of least norm, without the directions whose singular values are below `least` times

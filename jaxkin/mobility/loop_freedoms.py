@@ -18,7 +18,7 @@ from jaxkin.joints.screws import Screws
 from jaxkin.joints.subgroups import Subgroup, subgroup
 from jaxkin.linkage.closed_loops import closed_loops
 from jaxkin.linkage.first_order import loop_jacobian, null_space
-from jaxkin.linkage.host_closure import Row, Travel, least_norm
+from jaxkin.linkage.host_closure import LoopCoordinates, Travel, least_norm
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.topology.structure import LoopGroup
 
@@ -55,7 +55,7 @@ class LoopFreedoms:
         """The row of the fixed parts."""
 
     @cached_property
-    def _home(self) -> tuple[Row, Travel]:
+    def _home(self) -> tuple[LoopCoordinates, Travel]:
         """Close the loops from the assembled pose: the scaled coordinates, and the quantities of the loops there."""
         return self._loops.closed(np.zeros(len(self.columns)))
 
@@ -81,7 +81,7 @@ class LoopFreedoms:
         return self._generic[1].places
 
     @cached_property
-    def _generic(self) -> tuple[Row, Travel]:
+    def _generic(self) -> tuple[LoopCoordinates, Travel]:
         """Find the scaled coordinates of the generic pose, and the quantities of the loops there."""
         home = self._home[0]
         jacobian = self._jacobian(self._home[1])

@@ -22,10 +22,10 @@ from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.pose import Transform, inverse
 from jaxkin.joints.screws import moved
 from jaxkin.linkage.first_order import null_space
-from jaxkin.linkage.host_closure import ClosedLoops, Row
+from jaxkin.linkage.host_closure import ClosedLoops, LoopCoordinates
 from jaxkin.mobility.consistency import cutoff, nearest_closed, rounding
 
-Twists = Float[np.ndarray, "frames 6"]
+FrameTwists = Float[np.ndarray, "frames 6"]
 """Small twists of frames in world coordinates about the centroid, lengths over the characteristic length: rotation
 vector, then the displacement of the centroid."""
 
@@ -75,7 +75,7 @@ def nearest_mobile(loops: ClosedLoops, noise: float) -> bool:
     return False
 
 
-def _poses(loops: ClosedLoops, least: float) -> list[Row]:
+def _poses(loops: ClosedLoops, least: float) -> list[LoopCoordinates]:
     """Find poses of least residual along the freedoms of the assembled pose, forwards and backwards."""
     home, _ = nearest_closed(loops, np.zeros(len(loops.columns)), least)
     _, free = null_space(loops.jacobian(home), least)
@@ -98,7 +98,9 @@ def _held(jacobian: Float[np.ndarray, "equations columns"], least: float) -> Flo
     return directions[:, int((values > least * values.max(initial=0.0)).sum()) :].T
 
 
-def _frame_jacobian(loops: ClosedLoops, frames: list[tuple[int, int]], q: Row) -> Float[np.ndarray, "equations twists"]:
+def _frame_jacobian(
+    loops: ClosedLoops, frames: list[tuple[int, int]], q: LoopCoordinates
+) -> Float[np.ndarray, "equations twists"]:
     """Differentiate `Travel.residual` of the loops with respect to twists of the frames, six columns a frame.
 
     A frame that moves by `p` on both sides changes its displacement D by `p D - D p`: by the twist `p - Ad_D p`.
@@ -120,7 +122,7 @@ def _frame_jacobian(loops: ClosedLoops, frames: list[tuple[int, int]], q: Row) -
     return jacobian.reshape(-1, 6 * len(frames))
 
 
-def _move(loops: ClosedLoops, frames: list[tuple[int, int]], twists: Twists) -> None:
+def _move(loops: ClosedLoops, frames: list[tuple[int, int]], twists: FrameTwists) -> None:
     """Move frames, given as (joint, number of the frame), by small twists, in place and on both parts alike."""
     for (joint, number), twist in zip(frames, twists, strict=True):
         before = loops.chains[joint].frames_1.copy()

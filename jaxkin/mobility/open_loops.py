@@ -11,7 +11,7 @@ from jaxkin._traced import traced
 from jaxkin.geometry.pose import apply, turned_by
 from jaxkin.joints.screws import complement, freedoms
 from jaxkin.linkage.closed_loops import closed_loops
-from jaxkin.linkage.host_closure import ClosedLoops, Row, Travel
+from jaxkin.linkage.host_closure import ClosedLoops, LoopCoordinates, Travel
 from jaxkin.linkage.linkage import Linkage
 
 
@@ -75,7 +75,7 @@ def check_closed(linkage: Linkage, unit: str, what: str, call: str) -> None:
         )
 
 
-def tell_opening(linkage: Linkage, unit: str, loops: ClosedLoops, q: Row) -> Opening:
+def tell_opening(linkage: Linkage, unit: str, loops: ClosedLoops, q: LoopCoordinates) -> Opening:
     """Find the loop of a loop group that is open the most at scaled coordinates `q`, and its worst joint.
 
     Or the coupling, where one is off by more than the residual of any loop.

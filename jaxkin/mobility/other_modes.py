@@ -16,7 +16,7 @@ from jaxtyping import Float
 from jaxkin.geometry.pose import Transform
 from jaxkin.joints.screws import Screws
 from jaxkin.linkage.first_order import null_space
-from jaxkin.linkage.host_closure import ClosedLoops, Row, Travel
+from jaxkin.linkage.host_closure import ClosedLoops, LoopCoordinates, Travel
 
 STARTS = 8
 """Number of other starts from which each loop group is closed."""
@@ -35,8 +35,8 @@ _STEPS = 100
 
 
 def closed_from_elsewhere(
-    loops: ClosedLoops, q: Row, enough: float, held: Sequence[int] = ()
-) -> list[tuple[Row, Travel]]:
+    loops: ClosedLoops, q: LoopCoordinates, enough: float, held: Sequence[int] = ()
+) -> list[tuple[LoopCoordinates, Travel]]:
     """Close the loops from other starts, as far from the given pose as the closed coordinates `q`.
 
     Returns the coordinates whose `Travel.residual_norm` is at most `enough`, with what is met on the way around the
@@ -53,7 +53,7 @@ def closed_from_elsewhere(
     return found
 
 
-def other_modes(loops: ClosedLoops, q: Row, held: Sequence[int] = ()) -> list[float]:
+def other_modes(loops: ClosedLoops, q: LoopCoordinates, held: Sequence[int] = ()) -> list[float]:
     """Measure the distances from the closed coordinates `q` to other assembly modes, one entry a start that found one.
 
     The columns `held` stay zero while loops are closed from other starts, and may move afterwards, within the freedoms.
@@ -67,7 +67,7 @@ def other_modes(loops: ClosedLoops, q: Row, held: Sequence[int] = ()) -> list[fl
     return [left for left in distances if left > APART]
 
 
-def _led_back(loops: ClosedLoops, q: Row, found: Travel, home: Mapping[str, Transform]) -> float:
+def _led_back(loops: ClosedLoops, q: LoopCoordinates, found: Travel, home: Mapping[str, Transform]) -> float:
     """Move the parts from closed coordinates `q` towards the displacements `home`, and measure what distance is left.
 
     Gauss-Newton steps reduce the differences of the displacements within the freedoms; the loops are closed after each.

@@ -25,11 +25,12 @@ _LOST = 1e-10
 """Largest share of the square of a direction of the constraints that may lie in the rows that stay, where the direction
 counts as lost with the rows that are removed: above rounding."""
 
-Rows = Int[np.ndarray, " rows"]
+ConstraintRows = Int[np.ndarray, " rows"]
+"""Indices of rows of `TwistConstraints.matrix`."""
 
 
 @dataclass(frozen=True, eq=False)
-class Twists:
+class TwistConstraints:
     """The constraints of joints on the twists of bodies: `matrix @ twists = 0`."""
 
     bodies: tuple[str, ...]
@@ -50,11 +51,11 @@ class Twists:
         """Number of independent motions of all bodies that all joints allow together."""
         return self.matrix.shape[1] - len(self._decomposed[1])
 
-    def rows(self, joints: Sequence[int]) -> Rows:
+    def rows(self, joints: Sequence[int]) -> ConstraintRows:
         """List the rows of `matrix` that belong to `joints`, given by their indices."""
         return np.flatnonzero(np.isin(self.owner, joints))
 
-    def alone(self, bodies: Sequence[str], rows: Rows) -> int:
+    def alone(self, bodies: Sequence[str], rows: ConstraintRows) -> int:
         """Count the independent motions that the constraints `rows` allow to `bodies` while all other bodies rest."""
         places = [self.bodies.index(body) for body in bodies]
         own = self.matrix[rows].reshape(len(rows), len(self.bodies), 6)[:, places]
@@ -68,7 +69,7 @@ class Twists:
         strengths = np.concatenate(every)
         return 6 * len(bodies) - int((strengths > RANK_TOLERANCE * strengths.max(initial=0.0)).sum())
 
-    def freed(self, rows: Rows) -> Float[np.ndarray, "freed bodies 6"]:
+    def freed(self, rows: ConstraintRows) -> Float[np.ndarray, "freed bodies 6"]:
         """Compute a basis of the motions of the bodies that become possible when the constraints `rows` are removed.
 
         The matrix is `A = U S V^T`. A motion `x = V S^-1 z` changes the constraints by `A x = U z`: none but `rows` if
@@ -79,13 +80,13 @@ class Twists:
         lost = directions[strengths**2 > 1 - _LOST]
         return ((lost / s) @ vt).reshape(len(lost), len(self.bodies), 6)
 
-    def count_freed(self, rows: Rows) -> int:
+    def count_freed(self, rows: ConstraintRows) -> int:
         """Count the motions of `freed`, without computing them: those that become possible without `rows`."""
         share = self._decomposed[0][rows]
         share = share if len(share) < share.shape[1] else share.T
         return int((np.linalg.eigvalsh(share @ share.T) > 1 - _LOST).sum())
 
-    def strength(self, rows: Rows, gained: Float[np.ndarray, "freed bodies 6"]) -> float:
+    def strength(self, rows: ConstraintRows, gained: Float[np.ndarray, "freed bodies 6"]) -> float:
         """Measure how strongly the constraints `rows` hold the motions `gained`, which become possible without `rows`.
 
         The strength is that of the motion of unit norm that `rows` change least: radians, or lengths over the extent
@@ -109,7 +110,7 @@ class Twists:
         return difference - (difference @ vt.T) @ vt
 
 
-def twists(joints: Sequence[Joint], body_of: Mapping[str, str], still: str) -> Twists:
+def twists(joints: Sequence[Joint], body_of: Mapping[str, str], still: str) -> TwistConstraints:
     """Assemble the constraints of joints on bodies.
 
     `body_of` maps each part to its body; the body `still` rests. A joint inside of one body gives no constraint.
@@ -129,7 +130,7 @@ def twists(joints: Sequence[Joint], body_of: Mapping[str, str], still: str) -> T
                 block[:, column[body] : column[body] + 6] = sign * forbidden
         blocks.append(block)
         owner.append(np.full(len(block), index))
-    return Twists(bodies, np.concatenate(blocks), np.concatenate(owner))
+    return TwistConstraints(bodies, np.concatenate(blocks), np.concatenate(owner))
 
 
 def middle(joints: Sequence[Joint]) -> tuple[Vector, float]:

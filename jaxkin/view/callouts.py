@@ -11,7 +11,7 @@ from jaxtyping import Float
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.view.illustration import INK
-from jaxkin.view.regions import Region
+from jaxkin.view.regions import DrawnRegion
 from jaxkin.view.sheet import MARGIN, Place, Sheet
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ MAX_CALLOUTS = 24
 """Labels at most: more hide what they name."""
 
 
-def draw_contacts(sheet: Sheet, regions: Sequence[tuple[Region, Contact]], corner: Place) -> None:
+def draw_contacts(sheet: Sheet, regions: Sequence[tuple[DrawnRegion, Contact]], corner: Place) -> None:
     """Draw lines, circles and points of contact; areas belong to the image, whose place is `corner`."""
     for region, contact in regions:
         if not len(region.line):

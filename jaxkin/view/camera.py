@@ -19,7 +19,7 @@ PREFERENCE = 1.1
 THUMBNAIL = 120
 """Pixels across the trial pictures that compare the sides."""
 
-Displacements = Mapping[str, Float[np.ndarray, "poses 4 4"]]
+PartTransforms = Mapping[str, Float[np.ndarray, "poses 4 4"]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +36,7 @@ class View:
         return points @ self.axes.T
 
 
-def choose_view(parts: Sequence[Part], fixed: Sequence[str], displacements: Displacements) -> View:
+def choose_view(parts: Sequence[Part], fixed: Sequence[str], displacements: PartTransforms) -> View:
     """Choose the view that shows most of the moving parts: of the two sides of the plane of motion, or of eight oblique
     ones.
 
@@ -65,7 +65,7 @@ def choose_view(parts: Sequence[Part], fixed: Sequence[str], displacements: Disp
     return views[best] if merits[best] > PREFERENCE * merits[0] else views[0]
 
 
-def move(displacements: Displacements, part: str, points: Points) -> Float[np.ndarray, "poses *points 3"]:
+def move(displacements: PartTransforms, part: str, points: Points) -> Float[np.ndarray, "poses *points 3"]:
     """Place points of a part, given where they are in the assembled pose, at all poses: world coordinates."""
     pose = displacements[part]
     turned = np.einsum("pij,...j->p...i", pose[:, :3, :3], np.asarray(points, float))
@@ -100,7 +100,7 @@ def _normal(parts: Sequence[Part], steps: Sequence[np.ndarray]) -> Vector | None
 
 
 def _upwards(
-    out: Vector, parts: Sequence[Part], moving: Sequence[Part], fixed: Sequence[str], displacements: Displacements
+    out: Vector, parts: Sequence[Part], moving: Sequence[Part], fixed: Sequence[str], displacements: PartTransforms
 ) -> Vector:
     """Choose the direction across the longer side of the fixed parts (of all, if none is drawn), towards the moving
     ones."""
@@ -118,7 +118,7 @@ def _upwards(
     return short * (1 if above >= 0 else -1)
 
 
-def _middle(parts: Sequence[Part], displacements: Displacements) -> tuple[np.ndarray, list[str]]:
+def _middle(parts: Sequence[Part], displacements: PartTransforms) -> tuple[np.ndarray, list[str]]:
     """Find all triangles at the pose in the middle, and the part that each is of."""
     middle = {name: poses[[len(poses) // 2]] for name, poses in displacements.items()}
     triangles = [move(middle, part.name, part.triangles)[0] for part in parts]

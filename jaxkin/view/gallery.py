@@ -19,7 +19,7 @@ from jaxkin.view.drawing import PALETTE
 from jaxkin.view.glass import canvas_of, see_through
 from jaxkin.view.illustration import INK, Canvas
 from jaxkin.view.inspection import legend_of_regions
-from jaxkin.view.regions import Region, region_of
+from jaxkin.view.regions import DrawnRegion, region_of
 from jaxkin.view.sheet import CAPTION, GREY, MARGIN, draw_legend, fitted, make_sheet
 
 if TYPE_CHECKING:
@@ -72,6 +72,6 @@ def _square(canvas: Canvas) -> Canvas:
     return replace(canvas, corner=canvas.corner + room, width=PANEL, height=PANEL)
 
 
-def _image(canvas: Canvas, pair: Sequence[Part], region: Region) -> np.ndarray:
+def _image(canvas: Canvas, pair: Sequence[Part], region: DrawnRegion) -> np.ndarray:
     areas = [region.triangles] if len(region.triangles) else []
     return see_through(canvas, pair, [PALETTE[0], PALETTE[1]], areas, COLORS["surface"])

@@ -30,7 +30,7 @@ BOW = 0.2
 """Of several joints between the same parts, over their distance."""
 STILL = (0.85, 0.86, 0.88)
 
-Line = Float[np.ndarray, "points 2"]
+Polyline = Float[np.ndarray, "points 2"]
 
 
 class Diagram(NamedTuple):
@@ -86,7 +86,7 @@ def draw_graph(
     axes: Axes,
     diagram: Diagram,
     at: Mapping[str, np.ndarray],
-    lines: Mapping[int, Line],
+    lines: Mapping[int, Polyline],
     palette: Sequence[Color],
 ) -> None:
     """Draw parts, each at its place, joints along their lines, and loops; a unit of the axes is an inch."""
@@ -120,7 +120,7 @@ def write(axes: Axes, at: Place | np.ndarray, text: str, letters: int = MAX_LETT
 def _names(
     axes: Axes,
     diagram: Diagram,
-    lines: Mapping[int, Line],
+    lines: Mapping[int, Polyline],
     parts: Float[np.ndarray, "parts 2"],
     through: Mapping[int, Sequence[object]],
 ) -> None:
@@ -142,14 +142,14 @@ def _names(
         write(axes, spot, name, size=7, color=GREY, bbox=box, zorder=4)
 
 
-def lines_of(diagram: Diagram, at: Mapping[str, np.ndarray]) -> dict[int, Line]:
+def lines_of(diagram: Diagram, at: Mapping[str, np.ndarray]) -> dict[int, Polyline]:
     """Find the line of each joint from part 1 to part 2; several between the same parts are bowed, one part's is a
     ring."""
     together: dict[tuple[str, ...], list[int]] = defaultdict(list)
     for joint, ends in enumerate(diagram.ends):
         together[tuple(sorted(ends))].append(joint)
     t = np.linspace(0.0, 1.0, 41)[:, None]
-    lines: dict[int, Line] = {}
+    lines: dict[int, Polyline] = {}
     for (first, last), joints in together.items():
         start, end = at[first], at[last]
         for k, joint in enumerate(joints):
@@ -165,7 +165,7 @@ def lines_of(diagram: Diagram, at: Mapping[str, np.ndarray]) -> dict[int, Line]:
     return lines
 
 
-def _aside(line: Line) -> Line:
+def _aside(line: Polyline) -> Polyline:
     """Find where lanes beside a line are looked for, per inch: across it, but from the same part and to the same.
 
     Whichever way the line is travelled, it is the same side of the drawing.
@@ -179,7 +179,7 @@ def _aside(line: Line) -> Line:
     return left * opening * (2 - opening) * (1 if (middle[1], middle[0]) >= (0.0, 0.0) else -1)
 
 
-def _arrow(axes: Axes, line: Line, color: Color, small: bool) -> None:
+def _arrow(axes: Axes, line: Polyline, color: Color, small: bool) -> None:
     """Draw an arrow head on the line, after its middle."""
     k = int(0.62 * (len(line) - 1))
     style = {"arrowstyle": "-|>", "color": color, "linewidth": 0, "mutation_scale": 7 if small else 13}

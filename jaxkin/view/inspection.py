@@ -18,7 +18,7 @@ from jaxkin.view.callouts import CHAIN, COLORS, draw_axes, draw_contacts, draw_s
 from jaxkin.view.drawing import DISTINCT, FIXED_COLOR, body_colors, body_label, drawn_solids, told_apart
 from jaxkin.view.glass import WIDTH, canvas_of, pale, see_through
 from jaxkin.view.illustration import INK
-from jaxkin.view.regions import Region, region_of
+from jaxkin.view.regions import DrawnRegion, region_of
 from jaxkin.view.sheet import CAPTION, GREY, MARGIN, Color, clip, draw_legend, draw_scale, fitted, make_sheet
 
 if TYPE_CHECKING:
@@ -79,7 +79,7 @@ def _size(assembly: Assembly) -> float:
     return float(np.linalg.norm(np.ptp(boxes, axis=0)))
 
 
-def _regions(assembly: Assembly, contacts: Sequence[Contact]) -> list[tuple[Region, Contact]]:
+def _regions(assembly: Assembly, contacts: Sequence[Contact]) -> list[tuple[DrawnRegion, Contact]]:
     faces = {(part.name, face.name): face for part in assembly.parts for face in part.faces}
     tolerance = outline_length(assembly.parts)
     found = []

@@ -21,7 +21,7 @@ CROSSING_WEIGHT, NEAR_WEIGHT, NEAR_DISTANCE = 3.0, 0.15, 0.35
 """The weights of a crossing and of a node near a line, and how near that is, in lengths of a line (Davidson, Harel)."""
 
 N = TypeVar("N", bound=Hashable)
-Points = Float[np.ndarray, "nodes 2"]
+NodePlaces = Float[np.ndarray, "nodes 2"]
 
 
 def layout(nodes: Sequence[N], pairs: Sequence[tuple[N, N]]) -> dict[N, Float[np.ndarray, "2"]]:
@@ -40,7 +40,7 @@ def layout(nodes: Sequence[N], pairs: Sequence[tuple[N, N]]) -> dict[N, Float[np
     return dict(zip(nodes, points / (np.ptp(points, axis=0).max() or 1.0), strict=True))
 
 
-def _best(graph: Graph) -> Points:
+def _best(graph: Graph) -> NodePlaces:
     import networkx as nx
 
     def spring(seed: int) -> dict[int, np.ndarray]:
@@ -53,21 +53,21 @@ def _best(graph: Graph) -> Points:
     starts += [nx.kamada_kawai_layout(graph, pos=nx.planar_layout(graph))] if nx.is_planar(graph) else []
     starts += [spring(seed) for seed in range(RANDOM_STARTS)]
 
-    def cost(points: Points) -> float:
+    def cost(points: NodePlaces) -> float:
         return sum(_cost(points, edges, k, points[k][None])[0] for k in graph)
 
     chosen = sorted((_scaled(start, edges) for start in starts), key=cost)[:IMPROVED_STARTS]
     return min((_improved(points, edges) for points in chosen), key=cost)
 
 
-def _scaled(places: dict[int, np.ndarray], edges: Int[np.ndarray, "edges 2"]) -> Points:
+def _scaled(places: dict[int, np.ndarray], edges: Int[np.ndarray, "edges 2"]) -> NodePlaces:
     """Scale places so that lines have a length of 1 on average."""
     points = np.array([places[k] for k in range(len(places))])
     lengths = np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1)
     return points / (lengths.mean() if len(lengths) else 1.0)
 
 
-def _improved(points: Points, edges: Int[np.ndarray, "edges 2"]) -> Points:
+def _improved(points: NodePlaces, edges: Int[np.ndarray, "edges 2"]) -> NodePlaces:
     """Move each node in turn to the best of some places around it, in rounds that reach less and less far."""
     random = np.random.default_rng(0)
     points = points.copy()
@@ -79,7 +79,7 @@ def _improved(points: Points, edges: Int[np.ndarray, "edges 2"]) -> Points:
 
 
 def _cost(
-    points: Points, edges: Int[np.ndarray, "edges 2"], node: int, trials: Float[np.ndarray, "trials 2"]
+    points: NodePlaces, edges: Int[np.ndarray, "edges 2"], node: int, trials: Float[np.ndarray, "trials 2"]
 ) -> Float[np.ndarray, " trials"]:
     """Compute what each place costs that a node could have: too near or far from others, crossings, lines through
     nodes."""

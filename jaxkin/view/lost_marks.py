@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from jaxkin.mechanism.lost_contacts import LostContact
-from jaxkin.view.camera import Displacements, move
+from jaxkin.view.camera import PartTransforms, move
 
 WARNING = (0.80, 0.07, 0.12)
 """Red of a lost contact: in no colour of the parts (`motion.drawing.PALETTE`)."""
@@ -29,7 +29,7 @@ class LostMark:
         return np.isfinite(self.ends[0, :, 0])
 
 
-def lost_marks(lost: Sequence[LostContact], displacements: Displacements) -> tuple[LostMark, ...]:
+def lost_marks(lost: Sequence[LostContact], displacements: PartTransforms) -> tuple[LostMark, ...]:
     """Make a mark for each joint that leaves its faces, at the contact whose faces part the farthest."""
     joints = dict.fromkeys(each.joint for each in lost if each.loose.any())
     marks = []

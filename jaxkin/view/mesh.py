@@ -19,7 +19,7 @@ DOUBLED = 7
 
 
 @dataclass(frozen=True, eq=False)
-class Mesh:
+class ShadedMesh:
     """An indexed mesh whose corners are doubled along its edges, so that each copy has the normal of its side."""
 
     points: Float[np.ndarray, "points 3"]
@@ -29,7 +29,7 @@ class Mesh:
     """Ends of the lines where the surface turns sharply or ends."""
 
 
-def shaded_mesh(triangles: Float[np.ndarray, "triangles 3 3"]) -> Mesh:
+def shaded_mesh(triangles: Float[np.ndarray, "triangles 3 3"]) -> ShadedMesh:
     """Make the mesh of some triangles of about unit size: corners nearer than 1e-8 are one."""
     from trimesh import Trimesh
     from trimesh.graph import smooth_shade
@@ -40,7 +40,7 @@ def shaded_mesh(triangles: Float[np.ndarray, "triangles 3 3"]) -> Mesh:
     turned = mesh.face_adjacency_edges[mesh.face_adjacency_angles > PAGE_CREASE]
     rims = mesh.edges_sorted[group_rows(mesh.edges_sorted, require_count=1)]
     ends = np.concatenate([turned, rims])
-    return Mesh(
+    return ShadedMesh(
         np.asarray(smooth.vertices), np.asarray(smooth.vertex_normals), np.asarray(smooth.faces), mesh.vertices[ends]
     )
 

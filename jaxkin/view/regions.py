@@ -17,7 +17,7 @@ from jaxkin.geometry.pose import perpendicular
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane
 
 
-class Region(NamedTuple):
+class DrawnRegion(NamedTuple):
     """In world coordinates of the assembled pose."""
 
     triangles: Float[np.ndarray, "triangles 3 3"]
@@ -26,25 +26,25 @@ class Region(NamedTuple):
     """Of a line or a circle; a single point is a point. None for an area."""
 
 
-def region_of(contact: Contact, face1: Face, face2: Face, tolerance: float) -> Region:
+def region_of(contact: Contact, face1: Face, face2: Face, tolerance: float) -> DrawnRegion:
     """Find the region of a contact between two faces; `tolerance` is the length of the detection."""
     s1, s2 = contact.surfaces
     touch = contact.contact_state.touch(s1, s2, contact.centre)
     if touch is None:  # the detection found one here
-        return Region(np.zeros((0, 3, 3)), contact.centre[None])
+        return DrawnRegion(np.zeros((0, 3, 3)), contact.centre[None])
     match contact.region:
         case "surface":
-            return Region(_area(touch, face1, face2, tolerance), np.zeros((0, 3)))
+            return DrawnRegion(_area(touch, face1, face2, tolerance), np.zeros((0, 3)))
         case "circle":
             x = perpendicular(touch.direction)
             turn = np.linspace(0.0, 2 * np.pi, 97)[:, None]
             circle = np.cos(turn) * x + np.sin(turn) * np.cross(touch.direction, x)
-            return Region(np.zeros((0, 3, 3)), touch.point + touch.radius * circle)
+            return DrawnRegion(np.zeros((0, 3, 3)), touch.point + touch.radius * circle)
         case "line":
             found = contact_region("line", touch, face1, face2, tolerance)
             half = 0.5 * (found.extent if found else 0.0)
-            return Region(np.zeros((0, 3, 3)), contact.centre + np.outer([-half, half], touch.direction))
-    return Region(np.zeros((0, 3, 3)), touch.point[None])
+            return DrawnRegion(np.zeros((0, 3, 3)), contact.centre + np.outer([-half, half], touch.direction))
+    return DrawnRegion(np.zeros((0, 3, 3)), touch.point[None])
 
 
 def _area(touch: Touch, face1: Face, face2: Face, tolerance: float) -> np.ndarray:

@@ -11,7 +11,7 @@ from jaxtyping import Float, Int
 
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Points
-from jaxkin.view.camera import Displacements, View, choose_view, move
+from jaxkin.view.camera import PartTransforms, View, choose_view, move
 from jaxkin.view.drawing import drawn_parts, told_apart
 from jaxkin.view.lost_marks import LostMark, lost_marks
 from jaxkin.view.traces import default_marks, given_marks
@@ -42,7 +42,7 @@ class Scene:
     fixed: frozenset[str]
     bodies: Mapping[str, tuple[str, ...]]
     """Parts that move as one, by the first of each body."""
-    displacements: Displacements
+    displacements: PartTransforms
     """Of every part at every pose, in world coordinates from the assembled pose; failed poses included."""
     order: Int[np.ndarray, " poses"]
     """Indices of all poses: by the driven displacement if there is one, as given if there are several."""
@@ -90,14 +90,14 @@ def make_scene(motion: Motion, points: Mapping[str, object] | None = None) -> Sc
     )
 
 
-def _returns(parts: tuple[Part, ...], sample: Displacements, size: float) -> bool:
+def _returns(parts: tuple[Part, ...], sample: PartTransforms, size: float) -> bool:
     """Tell whether the last pose of the sample is the first one, after another in between."""
     gaps = [np.ptp(move(sample, part.name, part.box)[[0, -1]], axis=0).max() for part in parts]
     return len(sample[parts[0].name]) > 2 and bool(max(gaps) < CLOSED * size)
 
 
 def _bounds(
-    parts: tuple[Part, ...], sample: Displacements, view: View, traces: tuple[Trace, ...]
+    parts: tuple[Part, ...], sample: PartTransforms, view: View, traces: tuple[Trace, ...]
 ) -> Float[np.ndarray, "2 3"]:
     """List the assembled pose, a sample of poses that includes both ends, and the paths at all poses."""
     clouds = [trace.path[np.isfinite(trace.path).all(axis=1)] for trace in traces]

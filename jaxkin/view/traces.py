@@ -11,7 +11,7 @@ from jaxtyping import Float
 from jaxkin._names import nearest
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector
-from jaxkin.view.camera import Displacements, View, move
+from jaxkin.view.camera import PartTransforms, View, move
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
@@ -45,7 +45,7 @@ def given_marks(points: Mapping[str, object], parts: Sequence[str]) -> Marks:
     return marks
 
 
-def default_marks(mechanism: Mechanism, parts: Sequence[Part], view: View, displacements: Displacements) -> Marks:
+def default_marks(mechanism: Mechanism, parts: Sequence[Part], view: View, displacements: PartTransforms) -> Marks:
     """Find the centres of the joints that move, and of each part that they leave out the point farthest from them.
 
     A joint has a centre if the origin of its frame stays together on both parts. A part is left out if no such path

@@ -123,7 +123,7 @@ def _element(axes: Axes, box: Box, number: int, element: StructureElement, palet
     if not element.loops:
         _pill(axes, (box.x, box.y - HIGH / 2), element.upper, root, strong=True)
         return
-    _frame(axes, (box.x, box.y - box.height / 2), box.width, box.height, 0.16, "white", 1.2)
+    _frame(axes, (box.x, box.y - box.height / 2), (box.width, box.height), 0.16, "white", 1.2)
     _pill(axes, (box.x, box.y - 0.07 - HIGH / 2), element.upper, root)
     line = box.y - 0.07 - HIGH - 0.12
     write(axes, (box.x, line), element.kind, MAX_LETTERS, size=7, color=GREY, zorder=4)
@@ -138,14 +138,15 @@ def _element(axes: Axes, box: Box, number: int, element: StructureElement, palet
 
 def _pill(axes: Axes, at: Place, name: str, fixed: bool, strong: bool = False) -> None:
     """Draw a part in its long circle, as in Fig. 4."""
-    _frame(axes, at, _name_width(name), HIGH, HIGH / 2, STILL if fixed else "white", 1.2 if strong else 0.7)
+    _frame(axes, at, (_name_width(name), HIGH), HIGH / 2, STILL if fixed else "white", 1.2 if strong else 0.7)
     write(axes, at, name, size=7.5, zorder=4)
 
 
-def _frame(axes: Axes, at: Place, width: float, height: float, rounding: float, color: object, line: float) -> None:
+def _frame(axes: Axes, at: Place, size: tuple[float, float], rounding: float, color: object, line_width: float) -> None:
+    """Draw a box with round corners about a place."""
     from matplotlib.patches import FancyBboxPatch
 
-    corner = at[0] - width / 2, at[1] - height / 2
+    corner = at[0] - size[0] / 2, at[1] - size[1] / 2
     style = f"round,pad=0,rounding_size={rounding}"
-    patch = FancyBboxPatch(corner, width, height, style, facecolor=color, edgecolor=INK, linewidth=line, zorder=2)
+    patch = FancyBboxPatch(corner, *size, style, facecolor=color, edgecolor=INK, linewidth=line_width, zorder=2)
     axes.add_patch(patch)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import jaxkin as jk
-from jaxkin.assembly.to_mechanism import _alignment_notes
+from jaxkin.assembly.joined import _alignment_notes
 from jaxkin.examples import EXAMPLES, path
 from jaxkin.joints.from_contacts import FoundJoints
 

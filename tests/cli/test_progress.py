@@ -11,14 +11,14 @@ from typer.testing import CliRunner
 
 from jaxkin.cli import run
 from jaxkin.cli.app import app
-from jaxkin.cli.progress import Steps, progress
+from jaxkin.cli.progress import CommandSteps, progress
 from jaxkin.cli.threads import one_thread
 from jaxkin.examples import path
 
 
 def test_the_bar_moves_within_a_step():
     with Progress(console=Console(file=io.StringIO(), force_terminal=True)) as bar:
-        step = Steps(bar, 2)
+        step = CommandSteps(bar, 2)
         (task,) = bar.tasks
         seen = []
         for text in ("reading", "finding contacts"):

@@ -167,7 +167,18 @@ def test_losses_that_are_none(loss, said):
 def test_a_saved_result_of_another_format_is_refused(tmp_path, monkeypatch):
     nothing = np.zeros(0)
     found = result.Optimum(
-        TRUTH, 1.0, 0.0, nothing, "", 0.0, {}, {}, {"A": TURN}, nothing, nothing, result.Moves(1, {"CLOSED": 1}, 1.0)
+        TRUTH,
+        1.0,
+        0.0,
+        nothing,
+        "",
+        0.0,
+        {},
+        {},
+        {"A": TURN},
+        nothing,
+        nothing,
+        result.SweepVerdict(1, {"CLOSED": 1}, 1.0),
     )
     path = found.save(tmp_path / "best.npz")
     assert design.read_optimum(path).mechanism.lengths == TRUTH.lengths
@@ -179,4 +190,4 @@ def test_a_saved_result_of_another_format_is_refused(tmp_path, monkeypatch):
 def test_the_format_of_saved_results_changes_with_what_is_saved():
     """Whoever changes the fields raises `SAVED_FORMAT`, and writes both here."""
     assert result.SAVED_FORMAT == 2
-    assert [field.name for field in fields(result.Moves)] == ["poses", "counts", "steepest"]
+    assert [field.name for field in fields(result.SweepVerdict)] == ["poses", "counts", "steepest"]

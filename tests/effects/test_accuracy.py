@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import jaxkin as jk
-from jaxkin.effects.accuracy import TIGHTEST_32, Point, WorkPrecision, combinations
+from jaxkin.effects.accuracy import TIGHTEST_32, WorkPrecision, WorkPrecisionPoint, combinations
 from jaxkin.effects.extended import Extended
 from jaxkin.solve.execution.compiler import compilations
 from jaxkin.solve.options import METHODS
@@ -79,7 +79,7 @@ def test_work_precision_measures_errors_within_what_was_asked(make, joint):
 
 def test_the_table_and_the_advice(tmp_path):
     def point(method, precision, tolerance, seconds, error):
-        return Point(method, precision, tolerance, seconds, error, error, 1.0)
+        return WorkPrecisionPoint(method, precision, tolerance, seconds, error, error, 1.0)
 
     work = WorkPrecision(
         (

@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 
 import jaxkin as jk
 from jaxkin.io.robot_drawn import triangles_of
-from jaxkin.io.robot_model import Shape
+from jaxkin.io.robot_model import LinkShape
 from reference.archives import unpack
 from reference.bare_models import bare_model
 
@@ -246,7 +246,7 @@ def test_a_robot_moves_whatever_its_file_says_of_masses(tmp_path):
 )  # fmt: skip
 def test_solids_without_a_file_weigh_what_their_formulas_say(kind, size):
     """Spheres, cylinders and boxes with moments to 1e-5, capsules to 4e-3: those of their triangles."""
-    mesh = trimesh.Trimesh(*trimesh.triangles.to_kwargs(triangles_of(Shape(np.eye(4), kind, size))).values())
+    mesh = trimesh.Trimesh(*trimesh.triangles.to_kwargs(triangles_of(LinkShape(np.eye(4), kind, size))).values())
     if kind == "box":
         volume, square = np.prod(size), np.array(size) ** 2 / 12
     elif kind == "sphere":
@@ -267,4 +267,4 @@ def test_solids_without_a_file_weigh_what_their_formulas_say(kind, size):
 
 @pytest.mark.parametrize(("kind", "size"), [("sphere", (0.0,)), ("cylinder", (0.1, 0.0)), ("capsule", (0.0, 0.0))])
 def test_solids_of_no_size_have_finite_corners(kind, size):
-    assert np.isfinite(triangles_of(Shape(np.eye(4), kind, size))).all()
+    assert np.isfinite(triangles_of(LinkShape(np.eye(4), kind, size))).all()

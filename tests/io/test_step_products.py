@@ -9,7 +9,7 @@ import pytest
 import jaxkin.io.step as step
 from jaxkin.examples import path
 from jaxkin.io.step_colors import one_color_each
-from jaxkin.io.step_glb import Mesh
+from jaxkin.io.step_glb import ProductMesh
 
 DATA = Path(__file__).parent / "data"
 
@@ -43,7 +43,7 @@ def test_each_product_is_fitted_once(name, monkeypatch):
 def test_parts_are_the_same_where_each_is_fitted_by_itself(monkeypatch):
     shared, _ = step.read_step(DATA / "flanges.step")
     numbers = count()
-    monkeypatch.setattr(Mesh, "key", property(lambda mesh: str(next(numbers)).encode()))
+    monkeypatch.setattr(ProductMesh, "key", property(lambda mesh: str(next(numbers)).encode()))
     made = counted(monkeypatch, "make_solid")
     alone, _ = step.read_step(DATA / "flanges.step")
     assert len(made) == len(alone)

@@ -12,7 +12,7 @@ import jaxkin as jk
 from jaxkin.mechanism import formula_sweep
 from jaxkin.mechanism.drive_plan import plan_drive
 from jaxkin.mechanism.sweep import _known_tolerance, closure_tolerance
-from jaxkin.solve.closed_form.line import NODES, full_turn, passed_range
+from jaxkin.solve.closed_form.input_line import NODES, full_turn, passed_range
 from jaxkin.solve.closed_form.solve_groups import residual_norm, solve_groups
 from jaxkin.solve.execution.compiler import compilations
 from jaxkin.solve.execution.design_batches import DESIGN_GROUP

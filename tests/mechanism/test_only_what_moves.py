@@ -76,7 +76,7 @@ def closures(mechanism: Mechanism, joint: str, loop_class: LoopClass | None = No
     """Operations of one evaluation of the closure, residual and Jacobian, for a hundred poses."""
     ((system, _, joints, *_),) = solved(mechanism, joint)
     system = system if loop_class is None else replace(system, loop_class=loop_class)
-    geometry, _ = loop_geometry(system, *joints)
+    geometry, _ = loop_geometry(system, joints)
     return operations(partial(closure, system), geometry, assembled(system, 100, jnp.zeros(0).dtype))
 
 

@@ -22,7 +22,7 @@ def systems(mechanism, driven):
     """The same loops with three equations about their point, and with all six."""
     for changed in ({}, {"spherical": ()}):
         system, joints = loop_system(mechanism, [(name, 0) for name in driven], **changed)
-        yield system, jax.jit(loop_geometry, static_argnums=0)(system, *joints)[0]
+        yield system, jax.jit(loop_geometry, static_argnums=0)(system, joints)[0]
 
 
 @pytest.mark.long

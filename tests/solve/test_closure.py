@@ -11,6 +11,7 @@ from jaxkin.linkage.loop_class import LoopClass
 from jaxkin.solve.closure import closure as module
 from jaxkin.solve.closure import spatial
 from jaxkin.solve.closure.joint_coordinates import as_state, joint_coordinates
+from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import angles, assembled, from_angles, matrix, multiply, retract
 from reference.movements import matrix as movement_matrix
@@ -71,7 +72,7 @@ def displacement(system, before, after, pitch, q, index):
 @pytest.mark.long
 def test_gap_is_equation_12_of_the_products_of_the_papers_matrices(loop):
     system, before, after, pitch, q = loop
-    geometry, length = loop_geometry(system, before, after, pitch)
+    geometry, length = loop_geometry(system, Joints(before, after, pitch))
     lengths = jnp.where(jnp.array(system.is_length), length, 1.0)[:, None]
     state = as_state(system, before, after, q)
     found = closure(system, geometry, state._replace(x=state.x / lengths)).residual_norm
@@ -96,7 +97,7 @@ def test_jacobian_is_the_derivative_of_the_residual_where_the_loops_close(loop):
     """Away from closure the columns are twists, so the loop is closed first, by a constant behind its last joint."""
     system, before, after, pitch, q = loop
     system = LoopSystem(system.movements, system.loops[:1], system.driven, LoopClass())
-    geometry, _ = loop_geometry(system, before, after, pitch)
+    geometry, _ = loop_geometry(system, Joints(before, after, pitch))
     state = as_state(system, before, after, q[:, :1])
 
     def end(delta):
@@ -148,7 +149,7 @@ def test_balls_roll_anywhere_and_are_read_off_right(off):
     for _ in range(60):
         state = step(system, state, jnp.asarray(0.3 * rng.normal(size=(system.columns, 50))))
     again = as_state(system, before, before, read(system, before, before, state))
-    geometry, _ = loop_geometry(system, before, before, (jnp.zeros(()),) * 2)
+    geometry, _ = loop_geometry(system, Joints(before, before, (jnp.zeros(()),) * 2))
     one, other = (closure(system, geometry, each).residual_norm for each in (state, again))
     np.testing.assert_allclose(one, other, rtol=1e-13)
 
@@ -206,9 +207,9 @@ def test_a_ball_turns_half_a_turn_about_any_axis():
 def test_the_geometry_of_a_batch_is_that_of_each_design(loop, size):
     """Of one design too, which a compiler got wrong while blocks were written into products of matrices."""
     system, before, after, pitch, _ = loop
-    alone, length = loop_geometry(system, before, after, pitch)
-    batch = jax.tree.map(lambda leaf: jnp.stack([leaf] * size), (before, after, pitch))
-    found, lengths = jax.jit(jax.vmap(lambda *joints: module.loop_geometry(system, *joints)))(*batch)
+    alone, length = loop_geometry(system, Joints(before, after, pitch))
+    batch = jax.tree.map(lambda leaf: jnp.stack([leaf] * size), Joints(before, after, pitch))
+    found, lengths = jax.jit(jax.vmap(lambda joints: module.loop_geometry(system, joints)))(batch)
     np.testing.assert_allclose(lengths, np.full(size, length), rtol=1e-14)
     for many, one in zip(jax.tree.leaves(found), jax.tree.leaves(alone), strict=True):
         np.testing.assert_allclose(many, np.broadcast_to(one, many.shape), atol=1e-14)

@@ -31,7 +31,7 @@ def problem(mechanism, loop_class=None, driven=("A",)):
     inputs = tuple((names.index(name), 0) for name in driven)
     system, _ = group_system(mechanism.linkage, group, inputs, own if loop_class is None else loop_class)
     joints = jax.tree.map(jnp.asarray, group_joints(mechanism.linkage, mechanism.all_joints, group))
-    return system, loop_geometry(system, *joints)[0]
+    return system, loop_geometry(system, joints)[0]
 
 
 def at_inputs(system, inputs):

@@ -48,7 +48,7 @@ def test_no_block_holds_an_unknown_of_a_later_one(make):
 
     @jax.jit
     def jacobian_of(joints, state):
-        return closure(system, loop_geometry(system, *joints)[0], state).jacobian
+        return closure(system, loop_geometry(system, joints)[0], state).jacobian
 
     jacobian = np.asarray(jacobian_of(joints, State(jnp.asarray(x), turns)))
     for number, block in enumerate(found):

@@ -31,7 +31,7 @@ def systems(mechanism, driven):
     """The same loops in space with one equation of rotation where that is enough, and with three."""
     for changed in ({}, {"schoenflies": ()}):
         system, joints = loop_system(mechanism, driven, decoupled_plane=None, **changed)
-        yield system, jax.jit(loop_geometry, static_argnums=0)(system, *joints)[0]
+        yield system, jax.jit(loop_geometry, static_argnums=0)(system, joints)[0]
 
 
 @pytest.mark.parametrize(

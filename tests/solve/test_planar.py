@@ -31,7 +31,7 @@ def both(mechanism):
         yield (
             system,
             loop_geometry(
-                system, *jax.tree.map(jnp.asarray, group_joints(mechanism.linkage, mechanism.all_joints, loop_group))
+                system, jax.tree.map(jnp.asarray, group_joints(mechanism.linkage, mechanism.all_joints, loop_group))
             )[0],
         )
 

@@ -15,7 +15,7 @@ from reference.systems import loop_system
 @pytest.mark.long
 def test_the_smallest_singular_value_is_that_of_the_differentiated_residual():
     system, joints = loop_system(planar_fourbar(1.0), [("A", 0)])
-    geometry, _ = loop_geometry(system, *joints)
+    geometry, _ = loop_geometry(system, joints)
     x = jnp.zeros((system.columns, 1))  # closed there, so that the columns are derivatives of the residual
     found = jax.jit(smallest_singular_value, static_argnums=(0, 1))(system, 3, joints, x)
     residual = jax.jit(lambda x: closure(system, geometry, State(x, jnp.zeros((0, 4, 1)))).residual[:, 0])

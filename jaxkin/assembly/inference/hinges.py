@@ -12,7 +12,7 @@ from jaxkin.assembly.inference.fasteners import Stack, beside
 from jaxkin.assembly.inference.heads import is_exposed
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
-from jaxkin.assembly.inference.lines import Line, lines
+from jaxkin.assembly.inference.lines import CoaxialFeatures, lines
 from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.assembly.inference.stop_faces import MAX_AXIAL_PLAY, MAX_LIFT, between_bores, nearest, play, stands_across
 from jaxkin.assembly.inference.stopped_joint import StoppedJoint, joint_about
@@ -80,7 +80,9 @@ def _is(each: StoppedJoint, kind: JointKind) -> bool:
     return each.inference.joint is not None and each.inference.joint.kind is kind
 
 
-def _joined(known: Known, line: Line, fastening: Collection[str], kept: Sequence[Line]) -> list[StoppedJoint]:
+def _joined(
+    known: Known, line: CoaxialFeatures, fastening: Collection[str], kept: Sequence[CoaxialFeatures]
+) -> list[StoppedJoint]:
     """Make the joint of two bodies about their axis; `kept` are pairs of bodies that do not slide on each other."""
     pair, pins = line.first, line.pins
     if not line.is_alone:
@@ -107,7 +109,7 @@ def _is_disc(pair: CommonAxis) -> bool:
     return pair.clearance > MAX_DISC * pair.other.radius and pair.one.half < MAX_DISC * pair.one.radius
 
 
-def _is_rod(known: Known, line: Line) -> bool:
+def _is_rod(known: Known, line: CoaxialFeatures) -> bool:
     """Tell whether most of a pin is in no hole, as the stem of a roller is: no thread or ring stops its slide.
 
     A shaft in bushes is one to turn, however long it is.
@@ -116,7 +118,7 @@ def _is_rod(known: Known, line: Line) -> bool:
     return other not in known.sleeves and is_exposed(known, Stack((pin,), (other,), line.first.one, guides=True))
 
 
-def _opens(known: Known, line: Line) -> bool:
+def _opens(known: Known, line: CoaxialFeatures) -> bool:
     """Tell whether two bodies can turn one way about their axis without cutting into each other: all plane faces that
     meet are on one side of it, as those of a lid that is drawn closed.
 
@@ -135,7 +137,9 @@ def _opens(known: Known, line: Line) -> bool:
     return len(signs) == 1 and 0 not in signs
 
 
-def _hinge(known: Known, line: Line, touching: bool, fastened: bool, kept: Sequence[Line]) -> list[StoppedJoint]:
+def _hinge(
+    known: Known, line: CoaxialFeatures, touching: bool, fastened: bool, kept: Sequence[CoaxialFeatures]
+) -> list[StoppedJoint]:
     """Make a revolute joint where faces stop the slide, otherwise a cylindrical one unless contacts say that exactly.
 
     Faces across the axis that touch stop it, as they do beside a pin that fits exactly. A pin with play that is in the
@@ -164,7 +168,9 @@ def _hinge(known: Known, line: Line, touching: bool, fastened: bool, kept: Seque
     return [slides] if pair.virtual or far or stop is None else [slides, joint_about(known, line, stop, 0.0, room)]
 
 
-def _room(known: Known, line: Line, touching: bool, kept: Sequence[Line]) -> tuple[float | None, float | None]:
+def _room(
+    known: Known, line: CoaxialFeatures, touching: bool, kept: Sequence[CoaxialFeatures]
+) -> tuple[float | None, float | None]:
     """Measure how far faces let two bodies slide on each other in all, and how near they are to a face on either side;
     None without faces."""
     body, pair, hole = known.body, line.first, line.first.other
@@ -218,7 +224,7 @@ def _is_inside(pair: CommonAxis, found: Sequence[CommonAxis]) -> bool:
     return len(found) == len(spans) == 1 and room > CENTRED * pair.one.radius
 
 
-def _kept_with(owner: str, line: Line, kept: Sequence[Line]) -> set[str]:
+def _kept_with(owner: str, line: CoaxialFeatures, kept: Sequence[CoaxialFeatures]) -> set[str]:
     """Find a body with all that turn on it about the axis of a line without a slide, but the other body of the line."""
     about = [each for each in kept if each.first.other.on_axis_of(line.first.other) and owner in each.owners]
     return {owner, *(other for each in about for other in each.owners if other not in line.owners)}
@@ -251,7 +257,7 @@ def _guided(known: Known, pair: CommonAxis) -> StoppedJoint:
     return StoppedJoint(Inference.of(joint, evidence), Stop.NONE, replaces_slide=False)
 
 
-def _walled(known: Known, line: Line, exact: bool) -> list[StoppedJoint]:
+def _walled(known: Known, line: CoaxialFeatures, exact: bool) -> list[StoppedJoint]:
     """Make a prismatic joint along a pin where walls beside the axis keep a body from turning on it, such as a finger
     in a slot, or a jaw with its neck in one; beside a pin with play the walls of the same two parts."""
     pair, body = line.first, known.body

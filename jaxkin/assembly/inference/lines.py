@@ -15,7 +15,7 @@ from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.surfaces import Cylinder, Plane
 
 
-class Line(NamedTuple):
+class CoaxialFeatures(NamedTuple):
     """What two bodies have about a common axis."""
 
     owners: Pair
@@ -52,7 +52,7 @@ class Line(NamedTuple):
         return list(zip(self.touching, self.pins, strict=True))
 
 
-def lines(known: Known, axes: Sequence[CommonAxis] | None = None) -> list[Line]:
+def lines(known: Known, axes: Sequence[CommonAxis] | None = None) -> list[CoaxialFeatures]:
     """Find the bodies that have axes in common, but those that joints join already."""
     if axes is None:
         axes = [pair for pair in known.axes if not pair.threaded and id(pair) not in known.slot_ends]
@@ -67,13 +67,13 @@ def lines(known: Known, axes: Sequence[CommonAxis] | None = None) -> list[Line]:
     return [_line_of(owners, found, exact.get(owners, [])) for owners, found in between.items()]
 
 
-def _line_of(owners: Pair, found: list[CommonAxis], touching: list[Contact]) -> Line:
+def _line_of(owners: Pair, found: list[CommonAxis], touching: list[Contact]) -> CoaxialFeatures:
     """Make the line of two bodies.
 
     Where a pin fits exactly, equal bores without a pin on another axis hold nothing, such as those of two tubes that
     are drawn in line; parallel ones that bolts go through have made one body.
     """
-    line = Line(owners, found, touching)
+    line = CoaxialFeatures(owners, found, touching)
     if line.first.virtual or not any(line.pins):
         return line
     return line._replace(found=[each for each in found if not each.virtual or each.other.on_axis_of(line.first.other)])

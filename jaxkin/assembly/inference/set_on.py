@@ -11,7 +11,7 @@ from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.hinges import MIN_GUIDED
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.lines import Line, lines
+from jaxkin.assembly.inference.lines import CoaxialFeatures, lines
 from jaxkin.assembly.inference.sleeves import SAME_FIT
 from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.assembly.inference.stop_faces import ACROSS
@@ -61,7 +61,7 @@ def _held(known: Known, pair: CommonAxis, text: str, length: tuple[str, float], 
     return StoppedJoint(Inference(parts, evidence), stop, replaces_slide=True)
 
 
-def _jams(known: Known, line: Line) -> float | None:
+def _jams(known: Known, line: CoaxialFeatures) -> float | None:
     """Find the length along a pin by which faces and holes guide a body that faces keep from turning; None if it could
     slide, or turn.
 
@@ -92,7 +92,7 @@ def _slides_along(known: Known, pair: CommonAxis, guided: Sequence[Inference]) -
     return False
 
 
-def _turning(known: Known, line: Line, found: Sequence[Inference]) -> str | None:
+def _turning(known: Known, line: CoaxialFeatures, found: Sequence[Inference]) -> str | None:
     """Find the part in which a shaft turns, by a joint that was `found` on the axis of a line, where nothing but the
     shaft holds the body on it, which fits it exactly.
 

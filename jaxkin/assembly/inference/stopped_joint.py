@@ -10,7 +10,7 @@ from jaxkin.assembly.inference.axes import MAX_TILT, CommonAxis, shared_length
 from jaxkin.assembly.inference.bores import NEAR_LENGTH, SAME_ANGLE, SAME_LENGTH, Bore
 from jaxkin.assembly.inference.inference import Inference, offset_told
 from jaxkin.assembly.inference.known import Known, Pair
-from jaxkin.assembly.inference.lines import Line
+from jaxkin.assembly.inference.lines import CoaxialFeatures
 from jaxkin.assembly.inference.slide_stops import Stop, slide_doubt
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
@@ -28,7 +28,7 @@ class StoppedJoint(NamedTuple):
 
 
 def joint_about(
-    known: Known, line: Line, stop: Stop, free: float | None, room: float | None, touching: bool = False
+    known: Known, line: CoaxialFeatures, stop: Stop, free: float | None, room: float | None, touching: bool = False
 ) -> StoppedJoint:
     """Make a revolute joint with a play `free` along the axis, or a cylindrical one without it.
 

@@ -46,8 +46,8 @@ from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.joints.joint import Joint, JointCoordinate
 from jaxkin.linkage.coordinates import coordinate
+from jaxkin.linkage.joint_motion import JointDisplacements
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.mechanism.known_motion import Rows
 from jaxkin.solve.linear.constrained import column_sums, minimise_constrained
 from jaxkin.solve.range.groups import in_groups
 
@@ -71,7 +71,9 @@ class Balance(NamedTuple):
     """For each coupling its derivatives by (joint, coordinate), lengths over the size."""
 
 
-def balance(linkage: Linkage, at: Places, displacements: Rows, driven: Sequence[JointCoordinate]) -> Balance:
+def balance(
+    linkage: Linkage, at: Places, displacements: JointDisplacements, driven: Sequence[JointCoordinate]
+) -> Balance:
     """Find the joints in each pose, all of which have been placed; `driven` are (joint, coordinate)."""
     arms = tuple(at.joints[number].point for number in range(len(linkage.joints)))
     screws = []

@@ -13,7 +13,16 @@ from jaxtyping import Array, Float
 
 from jaxkin._traced import traced
 from jaxkin.joints.joint import JointCoordinate
-from jaxkin.mechanism.known_motion import Inputs, KnownDrive, KnownLoopGroup, KnownMotion, Rows, derivatives, follow
+from jaxkin.linkage.joint_motion import JointDisplacements
+from jaxkin.mechanism.known_motion import (
+    Inputs,
+    JointRates,
+    KnownDrive,
+    KnownLoopGroup,
+    KnownMotion,
+    derivatives,
+    follow,
+)
 from jaxkin.solve.execution.compiler import whole_program
 from jaxkin.solve.status import Status
 
@@ -26,13 +35,13 @@ ORDER = 2
 class Changes(NamedTuple):
     """A motion and its derivatives: for virtual work by each driven displacement, for motion by time."""
 
-    displacements: Rows
+    displacements: JointDisplacements
     along: dict[str, ByCoordinate]
     """First derivatives by each driven displacement, by its name, of the coordinates that it moves: those of a robot
     move a few of many."""
-    velocity: Rows | None = None
+    velocity: JointRates | None = None
     """None at rest."""
-    acceleration: Rows | None = None
+    acceleration: JointRates | None = None
 
 
 def changes(
@@ -73,8 +82,8 @@ def _changes(
     """
     moves, place = _moved(drive), follow(drive, known)
 
-    def by_inputs(inputs: Inputs) -> tuple[Rows, dict[str, ByCoordinate]]:
-        def by(times: Any) -> tuple[Rows, Rows]:
+    def by_inputs(inputs: Inputs) -> tuple[JointDisplacements, dict[str, ByCoordinate]]:
+        def by(times: Any) -> tuple[JointDisplacements, JointRates]:
             """Evaluate, and differentiate along the inputs, each at the rate `times`."""
             ones = {name: time * jnp.ones_like(own[name]) for name, time in zip(own, times, strict=True)}
             return jax.jvp(lambda own: place(inputs | own), (own,), (ones,))
@@ -103,7 +112,7 @@ def _changes(
     (name,) = inputs
     velocity = {at: column * first[name] for at, column in each[name].items()}
     acceleration = {at: again[name][at] * first[name] + column * second[name] for at, column in each[name].items()}
-    return Changes(here, each, rows_of(velocity, here), rows_of(acceleration, here))
+    return Changes(here, each, by_joint(velocity, here), by_joint(acceleration, here))
 
 
 class IndependentPart(NamedTuple):
@@ -142,7 +151,7 @@ def _independent(drive: KnownDrive, known: KnownMotion) -> list[IndependentPart]
             loops, own = (one._replace(columns=columns, inputs=inputs),), own._replace(numbers=(numbers,))
         places = tuple((str(place), number[joint], k) for place, (_, joint, k) in enumerate(driven))
         freedoms = tuple(drive.freedoms[joint] for joint in joints)
-        found.append(IndependentPart(KnownDrive(freedoms, places, loops), own, joints, names))
+        found.append(IndependentPart(KnownDrive(freedoms, places, loops, drive.unit), own, joints, names))
     return found
 
 
@@ -158,7 +167,7 @@ def _moved(drive: KnownDrive) -> dict[str, list[JointCoordinate]]:
     }
 
 
-def rows_of(columns: ByCoordinate, like: Rows) -> Rows:
+def by_joint(columns: ByCoordinate, like: JointDisplacements) -> tuple[Float[Array, "poses _"], ...]:
     """Put columns together by joint; zero of the coordinates that have none."""
     return tuple(
         jnp.stack([columns.get((joint, k), jnp.zeros_like(rows[:, 0])) for k in range(rows.shape[1])], axis=1)

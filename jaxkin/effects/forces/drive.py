@@ -15,9 +15,18 @@ from jax import lax
 from jaxtyping import Array, Float, Int
 
 from jaxkin._names import listed
+from jaxkin.effects.forces.acting import (
+    STANDARD_GRAVITY,
+    Acting,
+    ActingNumbers,
+    acting_numbers,
+    check,
+    given_rates,
+    loads_and_frictions,
+)
 from jaxkin.effects.forces.balance import tree_wrenches
-from jaxkin.effects.forces.changes import ORDER, ByCoordinate, Changes, changes, rows_of
-from jaxkin.effects.forces.friction import friction
+from jaxkin.effects.forces.changes import ORDER, Changes, by_joint, changes
+from jaxkin.effects.forces.friction import with_friction
 from jaxkin.effects.forces.friction_result import Friction
 from jaxkin.effects.forces.given import Applied
 from jaxkin.effects.forces.joint_screws import coordinates_of_motions
@@ -25,26 +34,13 @@ from jaxkin.effects.forces.masses import Masses
 from jaxkin.effects.forces.moving_parts import MovingParts
 from jaxkin.effects.forces.pose_groups import by_groups
 from jaxkin.effects.forces.potential import CarriedWeights, potential, weights_along_tree
-from jaxkin.effects.forces.wrenches import (
-    STANDARD_GRAVITY,
-    Acting,
-    ActingNumbers,
-    Loads,
-    Wrench,
-    acting_numbers,
-    acting_on,
-    check,
-    given_rates,
-    loads,
-    loads_and_frictions,
-    metres_of,
-    units_of,
-)
+from jaxkin.effects.forces.wrenches import Loads, Wrench, acting_on, loads, metres_of, units_of
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.units import METRES
 from jaxkin.joints.joint import JointCoordinate
+from jaxkin.linkage.joint_motion import JointDisplacements
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.mechanism.known_motion import Inputs, KnownDrive, KnownMotion, Rows, known_motion
+from jaxkin.mechanism.known_motion import Inputs, KnownDrive, KnownMotion, known_motion
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.singularity import singular_report
 from jaxkin.mobility.infeasible_drive import resting_freedoms
@@ -150,28 +146,27 @@ def drive_forces(
     check(motion, acting)
     drive, known = known_motion(motion)
     speeds = given_rates(motion, acting)
-    unit, linkage, numbers = motion.mechanism.unit, motion.mechanism.linkage, acting_numbers(acting)
+    linkage, numbers = motion.mechanism.linkage, acting_numbers(acting)
     if speeds is None:  # without friction, which `check` refuses at rest
         of_parts = None if numbers.masses is None else weights_along_tree(linkage, numbers.masses)
         others = numbers._replace(masses=None)
         found = changes(drive, known, motion.inputs, None) if len(drive.loop_groups) > 1 else None
-        return DriveForces(motion, *_at_rest(drive, unit, linkage, known, motion.inputs, others, of_parts, found))
+        return DriveForces(motion, *_at_rest(drive, linkage, known, motion.inputs, others, of_parts, found))
     found = changes(drive, known, motion.inputs, speeds)
     frictions = loads_and_frictions(acting)[1]
     if not frictions:
-        return DriveForces(motion, *_in_motion(drive, unit, linkage, known.status, found, speeds[0], numbers))
-    moving, all_loads = acting_on(unit, True, linkage, found, numbers)
-    frictional, result = friction(motion, drive, moving, all_loads, frictions)
-    forces, powers = _forces(drive, unit, linkage, known.status, moving, all_loads, frictional, found.along, speeds[0])
+        return DriveForces(motion, *_in_motion(drive, linkage, known.status, found, speeds[0], numbers))
+    moving, all_loads = acting_on(drive.unit, True, linkage, found, numbers)
+    all_loads, result = with_friction(motion, drive, moving, all_loads, frictions)
+    forces, powers = _forces(drive, linkage, known.status, moving, all_loads, speeds[0])
     if result is not None:
         forces, powers = (jax.tree.map(partial(jnp.where, result.locked, jnp.nan), each) for each in (forces, powers))
     return DriveForces(motion, forces, powers, result)
 
 
-@partial(whole_program, static=(0, 1))
+@partial(whole_program, static=(0,))
 def _at_rest(
     drive: KnownDrive,
-    unit: str,
     linkage: Linkage,
     known: KnownMotion,
     inputs: Inputs,
@@ -185,7 +180,9 @@ def _at_rest(
     each pose. Derivatives by the drive, unless they are `found`, stay in the cache.
     """
 
-    def of_group(given: tuple[Rows, Int[Array, " poses"], Inputs, Changes | None], acting: ActingNumbers) -> Inputs:
+    def of_group(
+        given: tuple[JointDisplacements, Int[Array, " poses"], Inputs, Changes | None], acting: ActingNumbers
+    ) -> Inputs:
         displacements, status, inputs, found = given
         if found is None:
             own = known._replace(displacements=displacements, status=status)
@@ -193,12 +190,12 @@ def _at_rest(
             found = lax.optimization_barrier(changes(drive, own, inputs, None))
         forces: Inputs = dict.fromkeys(found.along, jnp.zeros(len(status)))
         if acting.applied:
-            moving, all_loads = acting_on(unit, False, linkage, found, acting)
-            forces, _ = _forces(drive, unit, linkage, status, moving, all_loads, {}, found.along, None)
+            moving, all_loads = acting_on(drive.unit, False, linkage, found, acting)
+            forces, _ = _forces(drive, linkage, status, moving, all_loads, None)
         if of_parts is not None:
             slopes = _slopes(partial(potential, linkage, of_parts, acting.gravity), found)
             for name, joint, index in drive.driven:
-                metre = METRES[unit] / metres_of(linkage.joints[joint].coordinates[index], unit)
+                metre = METRES[drive.unit] / metres_of(linkage.joints[joint].coordinates[index], drive.unit)
                 forces[name] = forces[name] + metre * slopes[name]
         return forces
 
@@ -208,11 +205,11 @@ def _at_rest(
     return {name: jnp.where(closed, force, jnp.nan) for name, force in forces.items()}, powers
 
 
-def _slopes(energy: Callable[[Rows], Float[Array, " poses"]], found: Changes) -> Inputs:
+def _slopes(energy: Callable[[JointDisplacements], Float[Array, " poses"]], found: Changes) -> Inputs:
     """Differentiate an energy by each driven displacement."""
     if len(found.along) == 1:  # forwards nothing is kept for a way back, which takes three fifths of the time
         ((name, along),) = found.along.items()
-        return {name: jax.jvp(energy, (found.displacements,), (rows_of(along, found.displacements),))[1]}
+        return {name: jax.jvp(energy, (found.displacements,), (by_joint(along, found.displacements),))[1]}
     # backwards once, for any number of drives: forwards, each of them would be as long a program
     each = jax.grad(lambda rows: jnp.sum(energy(rows)))(found.displacements)
     return {
@@ -221,10 +218,9 @@ def _slopes(energy: Callable[[Rows], Float[Array, " poses"]], found: Changes) ->
     }
 
 
-@partial(whole_program, static=(0, 1))
+@partial(whole_program, static=(0,))
 def _in_motion(
     drive: KnownDrive,
-    unit: str,
     linkage: Linkage,
     status: Int[Array, " poses"],
     found: Changes,
@@ -236,38 +232,35 @@ def _in_motion(
     def of_group(given: tuple[Int[Array, " poses"], Changes, Inputs], acting: ActingNumbers) -> tuple[Inputs, Inputs]:
         status, found, rates = given
         moving = MovingParts.of(linkage, found, chords=False)
-        all_loads = loads(linkage, unit, acting, moving)
-        return _forces(drive, unit, linkage, status, moving, all_loads, {}, found.along, rates)
+        return _forces(drive, linkage, status, moving, loads(linkage, drive.unit, acting, moving), rates)
 
     return by_groups(of_group, (status, found, rates), acting)
 
 
-@partial(whole_program, static=(0, 1))
+@partial(whole_program, static=(0,))
 def _forces(
     drive: KnownDrive,
-    unit: str,
     linkage: Linkage,
     status: Int[Array, " poses"],
     moving: MovingParts,
     all_loads: Loads,
-    frictional: dict[int, Wrench],
-    along: dict[str, ByCoordinate],
     rates: Inputs | None,
 ) -> tuple[Inputs, Inputs]:
     """Compute force and power of each driven coordinate u.
 
-    With W_k of `_by_coordinate`, the force is the sum of dq_k/du W_k over the coordinates q_k that u moves; `along` are
-    the dq_k/du. The wrenches `frictional` of friction act on part 2 of joints, by number. Without `rates` powers are
-    zero.
+    With W_k of `_by_coordinate`, the force is the sum of dq_k/du W_k over the coordinates q_k that u moves; the dq_k/du
+    are `moving.along`. `rates` are the du/dt of powers, which are zero without.
     """
     closed = is_closed_on_branch(status)
     sent = tree_wrenches(linkage, all_loads.parts, len(status))
-    work = _by_coordinate(linkage, unit, all_loads, frictional, moving, sent)
+    work = _by_coordinate(linkage, drive.unit, all_loads, moving, sent)
     forces, powers = {}, {}
     for name, joint, index in drive.driven:
-        force = sum((change * work[at] for at, change in along[name].items() if at in work), jnp.zeros(len(status)))
+        force = sum(
+            (change * work[at] for at, change in moving.along[name].items() if at in work), jnp.zeros(len(status))
+        )
         power = force * rates[name] if rates is not None else jnp.zeros_like(force)
-        metre = metres_of(linkage.joints[joint].coordinates[index], unit)
+        metre = metres_of(linkage.joints[joint].coordinates[index], drive.unit)
         forces[name] = jnp.where(closed, force / metre, jnp.nan)
         powers[name] = jnp.where(closed, power, jnp.nan)
     return forces, powers
@@ -277,7 +270,6 @@ def _by_coordinate(
     linkage: Linkage,
     unit: str,
     all_loads: Loads,
-    frictional: dict[int, Wrench],
     moving: MovingParts,
     sent: dict[int, Wrench],
 ) -> dict[JointCoordinate, Float[Array, " poses"]]:
@@ -287,7 +279,7 @@ def _by_coordinate(
     What acts on the parts is carried by the joints of the tree, by the wrenches `sent`.
     """
     scale, found = moving.at.scale, {}
-    for sign, wrenches in ((1, sent), (-1, frictional)):
+    for sign, wrenches in ((1, sent), (-1, all_loads.friction)):
         for number, wrench in wrenches.items():
             joint = linkage.joints[number]
             units = scale.of_coordinates(joint)

@@ -13,12 +13,13 @@ from jaxtyping import Bool, Float, Int
 
 from jaxkin._arguments import by_name, check_known, check_mechanism, numbers
 from jaxkin._runs import runs
+from jaxkin.effects.forces.acting import STANDARD_GRAVITY, Acting, loads_and_frictions
 from jaxkin.effects.forces.drive import drive_forces
 from jaxkin.effects.forces.given import Applied, rows_per_pose
 from jaxkin.effects.forces.masses import Masses
 from jaxkin.effects.forces.reactions import HELD, Reactions, reactions
 from jaxkin.effects.forces.screws import Scale
-from jaxkin.effects.forces.wrenches import STANDARD_GRAVITY, Acting, loads_and_frictions, units_of
+from jaxkin.effects.forces.wrenches import units_of
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.units import METRES
@@ -26,7 +27,7 @@ from jaxkin.linkage.coordinates import coordinates
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
 
-Inputs = Float[np.ndarray, " poses"]
+PerPose = Float[np.ndarray, " poses"]
 
 MAX_REFINEMENTS = 60
 """Steps that refine a sign change, at most: halving alone gains a digit in three."""
@@ -63,7 +64,7 @@ class Equilibrium:
     out_of_balance: Mapping[str, float]
     """For each coordinate without a drive that would not stay in all these poses, the largest load that would hold it,
     newton metres or newtons. Such a pose is no equilibrium of the mechanism, and neither stable nor unstable."""
-    inputs: Inputs
+    inputs: PerPose
     """The range that was searched, rising."""
     forces: Float[np.ndarray, " poses"]
     """Drive forces there, newton metres or newtons; NaN at poses that are not closed (`motion.closed`)."""
@@ -160,10 +161,10 @@ def equilibrium(
     key, inputs, held = _range_and_held(drive)
     name = next(iter(coordinates(mechanism.linkage, [key])))
 
-    def posed(values: Inputs) -> Motion:
+    def posed(values: PerPose) -> Motion:
         return mechanism.sweep({key: values, **{each: np.full(len(values), *at) for each, at in held.items()}})
 
-    def force(values: Inputs) -> Float[np.ndarray, " poses"]:
+    def force(values: PerPose) -> Float[np.ndarray, " poses"]:
         # all of one length, so that they share a compiled program
         padded = np.pad(values, (0, max(0, len(inputs) - len(values))), mode="edge")
         found = drive_forces(posed(padded), masses, gravity=gravity, applied=applied)
@@ -178,7 +179,7 @@ def equilibrium(
     step = rounding ** (1 / 3) * np.ptp(inputs)
     beside = force(np.concatenate([values - step, values + step])) if len(values) else np.zeros(0)
     growth = beside[len(values) :] - beside[: len(values)]
-    loads: dict[str, Inputs] = {}
+    loads: dict[str, PerPose] = {}
     if _has_others(mechanism, len(drive)) and (len(values) or len(indifferent)):
         poses = posed(np.concatenate([values, inputs[indifferent].ravel()]))
         most = HELD * max(float(np.nanmax(np.abs(forces))), weight)
@@ -197,7 +198,7 @@ def equilibrium(
     )
 
 
-def _range_and_held(drive: Mapping[Any, Any]) -> tuple[str, Inputs, dict[str, Inputs]]:
+def _range_and_held(drive: Mapping[Any, Any]) -> tuple[str, PerPose, dict[str, PerPose]]:
     """Check a drive: the coordinate that has a range, this range, rising, and the one displacement of each other."""
     given = {key: np.unique(numbers(some, f"the range of {key!r}").ravel()) for key, some in drive.items()}
     if not given:
@@ -215,8 +216,8 @@ def _range_and_held(drive: Mapping[Any, Any]) -> tuple[str, Inputs, dict[str, In
 
 
 def _vanishing(
-    force: Callable[[Inputs], Inputs], inputs: Inputs, forces: Inputs, least: float, within: float
-) -> tuple[Inputs, Int[np.ndarray, "intervals 2"]]:
+    force: Callable[[PerPose], PerPose], inputs: PerPose, forces: PerPose, least: float, within: float
+) -> tuple[PerPose, Int[np.ndarray, "intervals 2"]]:
     """Find where a force vanishes along a range: in single displacements, rising, and throughout which intervals.
 
     `forces` are those of the range, zero where they are at most `least`. Displacements are refined to `within` of the
@@ -240,7 +241,7 @@ def _has_others(mechanism: Mechanism, driven: int) -> bool:
     return found.freedoms - found.idle_freedoms > driven
 
 
-def _out_of_balance(found: Reactions, most: float) -> dict[str, Inputs]:
+def _out_of_balance(found: Reactions, most: float) -> dict[str, PerPose]:
     """Find the loads that hold coordinates without a drive, zero where they are at most `most`; none where all are."""
     loads = {
         full_name: np.abs(np.nan_to_num(np.asarray(found.held[name], float)[:, k]))
@@ -261,8 +262,8 @@ def _weight(mechanism: Mechanism, name: str, masses: Masses | None, gravity: Any
 
 
 def _refined(
-    force: Callable[[Inputs], Inputs], low: Inputs, high: Inputs, at_low: Inputs, at_high: Inputs, within: float
-) -> tuple[Inputs, Bool[np.ndarray, " poses"]]:
+    force: Callable[[PerPose], PerPose], low: PerPose, high: PerPose, at_low: PerPose, at_high: PerPose, within: float
+) -> tuple[PerPose, Bool[np.ndarray, " poses"]]:
     """Refine sign changes, all at once: false position with halved ends (Illinois), halving where that is slow.
 
     Returns the displacements, and whether the force vanishes there. At a dead point it changes its sign through

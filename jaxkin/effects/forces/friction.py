@@ -67,17 +67,26 @@ class Sliding(NamedTuple):
     rests: Bool[Array, " poses"]
 
 
-def friction(
+class _RubbingJoint(NamedTuple):
+    """A joint with friction."""
+
+    number: int
+    """That of the joint in `Linkage.joints`."""
+    given: JointFriction
+    wrench: Twist
+    """The wrench of its friction where a newton presses its faces together, mu times `Sliding.against`."""
+
+
+def with_friction(
     motion: Motion, drive: KnownDrive, moving: MovingParts, all_loads: Loads, given: Sequence[JointFriction]
-) -> tuple[dict[int, Twist], Friction | None]:
-    """Find the wrench of friction on part 2 of each joint, by its number, about the middle; none where none is given.
+) -> tuple[Loads, Friction | None]:
+    """Add to the loads the wrenches of the friction that is `given`, and return what is known of it; None without.
 
     All joints have been placed. Where the mechanism locks, there is no friction, and `Friction.locked` says so.
     """
     if not given:
-        return {}, None
-    mechanism = motion.mechanism
-    wrenches, locked, found = _solved(drive, mechanism.unit, mechanism.linkage, moving, all_loads, tuple(given))
+        return all_loads, None
+    wrenches, locked, found = _solved(drive, motion.mechanism.linkage, moving, all_loads, tuple(given))
     locked = locked & motion.closed
     known = motion.closed & ~locked
     normal, limit, losses, rests = (
@@ -86,13 +95,12 @@ def friction(
     normal, limit, losses = (
         jax.tree.map(lambda rows: jnp.where(known, rows, jnp.nan), each) for each in (normal, limit, losses)
     )
-    return wrenches, Friction(motion, normal, limit, losses, rests, locked)
+    return all_loads._replace(friction=wrenches), Friction(motion, normal, limit, losses, rests, locked)
 
 
-@partial(whole_program, static=(0, 1))
+@partial(whole_program, static=(0,))
 def _solved(
     drive: KnownDrive,
-    unit: str,
     linkage: Linkage,
     moving: MovingParts,
     all_loads: Loads,
@@ -103,10 +111,13 @@ def _solved(
     numbers = [names.index(each.joint) for each in given]
     slides = [_sliding(linkage, moving, number, each) for number, each in zip(numbers, given, strict=True)]
     most = [jnp.asarray(each.coefficient, float) for each in given]
-    full = [mu * slide.against for mu, slide in zip(most, slides, strict=True)]
-    normal, locked = _normal_forces(*_pressing(drive, unit, linkage, moving, all_loads, given, numbers, full))
-    wrenches = {number: pressed * wrench for number, pressed, wrench in zip(numbers, normal, full, strict=True)}
-    lever = moving.at.scale.size * METRES[unit]
+    rubbing = [
+        _RubbingJoint(number, each, mu * slide.against)
+        for number, each, mu, slide in zip(numbers, given, most, slides, strict=True)
+    ]
+    normal, locked = _normal_forces(*_pressing(drive, linkage, moving, all_loads, rubbing))
+    wrenches = {joint.number: pressed * joint.wrench for joint, pressed in zip(rubbing, normal, strict=True)}
+    lever = moving.at.scale.size * METRES[drive.unit]
     losses = [
         -lever * jnp.sum(wrench * _twist_in(linkage, moving, number), axis=0) for number, wrench in wrenches.items()
     ]
@@ -142,31 +153,26 @@ def _sliding(linkage: Linkage, moving: MovingParts, number: int, given: JointFri
 
 
 def _pressing(
-    drive: KnownDrive,
-    unit: str,
-    linkage: Linkage,
-    moving: MovingParts,
-    all_loads: Loads,
-    given: Sequence[JointFriction],
-    numbers: Sequence[int],
-    full: Sequence[Twist],
+    drive: KnownDrive, linkage: Linkage, moving: MovingParts, all_loads: Loads, rubbing: Sequence[_RubbingJoint]
 ) -> tuple[Float[Array, "joints 4 poses"], Float[Array, "joints joints 4 poses"]]:
     """Compute what presses each joint without friction, c_0, and per newton of N in each joint, C by (k, j)."""
     driven = [(joint, k) for _, joint, k in drive.driven]
     found = balance(linkage, moving.at, moving.displacements, driven)
-    lever = moving.at.scale.size * METRES[unit]
+    lever = moving.at.scale.size * METRES[drive.unit]
     poses = found.arms[0].shape[1]
 
     def pressed(
         acting: dict[str, Twist], loaded: dict[JointCoordinate, Array], friction_loads: Float[Array, "joints poses"]
     ) -> Float[Array, "joints 4 poses"]:
         sent = solve(linkage, found, driven, acting, loaded).wrenches
-        each = zip(numbers, given, friction_loads, strict=True)
-        return jnp.stack([_pressed(linkage, moving, number, own, sent[number], load) for number, own, load in each])
+        each = zip(rubbing, friction_loads, strict=True)
+        return jnp.stack(
+            [_pressed(linkage, moving, joint.number, joint.given, sent[joint.number], load) for joint, load in each]
+        )
 
     # without friction first, then one newton of N in each joint
     loaded = {
-        (number, k): jnp.zeros((len(given) + 1, poses))
+        (number, k): jnp.zeros((len(rubbing) + 1, poses))
         for number, joint in enumerate(linkage.joints)
         for k in range(joint.freedoms)
         if (number, k) not in driven
@@ -175,18 +181,16 @@ def _pressing(
         if (number, k) in loaded:
             own = load / (1.0 if is_length(linkage.joints[number].coordinates[k]) else lever)
             loaded[number, k] = loaded[number, k].at[0].set(own)
-    for row, (number, wrench) in enumerate(zip(numbers, full, strict=True), start=1):
+    for row, (number, _, wrench) in enumerate(rubbing, start=1):
         for k, screw in enumerate(found.screws[number]):
             if (number, k) in loaded:
                 loaded[number, k] = loaded[number, k].at[row].set(jnp.sum(wrench * screw, axis=0))
     acting = {
-        part: jnp.zeros((len(given) + 1, 6, poses)).at[0].set(jnp.broadcast_to(wrench, (6, poses)))
+        part: jnp.zeros((len(rubbing) + 1, 6, poses)).at[0].set(jnp.broadcast_to(wrench, (6, poses)))
         for part, wrench in all_loads.parts.items()
     }
-    turning = jnp.stack(
-        [jnp.sum(wrench * found.screws[number][-1], axis=0) for number, wrench in zip(numbers, full, strict=True)]
-    )
-    friction_loads = jnp.concatenate([jnp.zeros((1, *turning.shape)), jnp.eye(len(given))[:, :, None] * turning])
+    turning = jnp.stack([jnp.sum(wrench * found.screws[number][-1], axis=0) for number, _, wrench in rubbing])
+    friction_loads = jnp.concatenate([jnp.zeros((1, *turning.shape)), jnp.eye(len(rubbing))[:, :, None] * turning])
     every = jax.vmap(pressed)(acting, loaded, friction_loads)
     return every[0], every[1:]
 

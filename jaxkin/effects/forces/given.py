@@ -12,7 +12,8 @@ from jaxtyping import Array, Float
 from jaxkin._arguments import numbers, one_number, text, yes_or_no
 from jaxkin._traced import traced
 
-Numbers = Float[Array | np.ndarray, "*poses"]
+Scalars = Float[Array | np.ndarray, "*poses"]
+"""One number for all poses, or one a pose."""
 Vectors = Float[Array | np.ndarray, "*poses 3"]
 
 
@@ -47,11 +48,11 @@ class Spring:
     parts: tuple[str, str]
     points: Float[Array | np.ndarray, "2 3"]
     """Where the points are in the assembled pose, unit of the mechanism."""
-    stiffness: Numbers
+    stiffness: Scalars
     """Newtons per metre."""
-    length: Numbers
+    length: Scalars
     """Length without a force, unit of the mechanism."""
-    damping: Numbers
+    damping: Scalars
     """Newton seconds per metre, along the line of the points."""
 
 
@@ -62,13 +63,13 @@ class JointLoad:
 
     coordinate: str
     """"joint" or "joint.coordinate"."""
-    load: Numbers
+    load: Scalars
     """Newton metres of an angle, newtons of a length; positive along the coordinate."""
-    stiffness: Numbers
+    stiffness: Scalars
     """Newton metres per radian, or newtons per metre."""
-    rest: Numbers
+    rest: Scalars
     """Displacement without a force of the spring: radians, or the unit of the mechanism."""
-    damping: Numbers
+    damping: Scalars
     """Newton metre seconds per radian, or newton seconds per metre."""
 
 
@@ -198,7 +199,7 @@ def _vectors(given: Any, what: str, one: bool = False) -> Vectors:
     return found
 
 
-def _numbers(given: Any, what: str) -> Numbers:
+def _numbers(given: Any, what: str) -> Scalars:
     """Check one number, or one a pose; ValueError for others, and for one that is not finite.
 
     Of several some may be NaN, where nothing was measured: so are the forces of those poses.

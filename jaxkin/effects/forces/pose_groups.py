@@ -8,9 +8,9 @@ from typing import Any
 
 import jax.numpy as jnp
 
+from jaxkin.effects.forces.acting import ActingNumbers
 from jaxkin.effects.forces.balance import GROUP
 from jaxkin.effects.forces.given import rows_per_pose
-from jaxkin.effects.forces.wrenches import ActingNumbers
 from jaxkin.solve.range.groups import in_groups
 
 

@@ -32,9 +32,8 @@ from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.solve.execution.compiler import whole_program
 
-Row = Sequence[Float[Array, "#poses"]]
+WeightRow = Sequence[Float[Array, "#poses"]]
 """A row of four numbers in each pose: three in the axes of a frame, and one for its origin."""
-Transform = Float[Array, "4 4"]
 
 
 class _Passage(NamedTuple):
@@ -100,7 +99,7 @@ def referred_weights(linkage: Linkage, masses: Masses) -> CarriedWeights:
         for side in (0, 1)
     )
 
-    def passed(places: Float[Array, "places 4 4"], given: Any) -> tuple[Any, Transform]:
+    def passed(places: Float[Array, "places 4 4"], given: Any) -> tuple[Any, Float[Array, "4 4"]]:
         number, before, moves, enter, leave = given
         enters = _product(places[before], enter)
         return places.at[number].set(_product(jnp.where(moves, jnp.eye(4), enters), _inverse(leave))), enters
@@ -127,10 +126,10 @@ def potential(
 ) -> Float[Array, " poses"]:
     """Compute the potential energy of all weights, in newtons times the unit of the mechanism; zero at the middle."""
     moving = [each for each in _passages(linkage)[0] if each.moves]
-    rows: list[Row] = [[*(number[None] for number in jnp.asarray(gravity, float)), jnp.zeros(1)]]
+    rows: list[WeightRow] = [[*(number[None] for number in jnp.asarray(gravity, float)), jnp.zeros(1)]]
     turns = _turns(linkage, moving, displacements)
     for each, enters in zip(moving, weights.enters, strict=True):
-        row: Row = _times(rows[each.row_before], enters)
+        row: WeightRow = _times(rows[each.row_before], enters)
         for axis, how_far in _motions(linkage, each, displacements[each.joint], turns):
             row = displaced_columns(row, axis, *how_far)
         # found once: XLA would find the whole chain anew wherever it is used
@@ -162,12 +161,12 @@ def _passages(linkage: Linkage) -> tuple[list[_Passage], dict[str, int]]:
     return passages, last
 
 
-def _product(a: Transform, b: Transform) -> Transform:
+def _product(a: Float[Array, "4 4"], b: Float[Array, "4 4"]) -> Float[Array, "4 4"]:
     """Multiply by sums: products of matrices are less exact than their numbers on some devices."""
     return jnp.sum(a[:, :, None] * b[None], axis=1)
 
 
-def _inverse(place: Transform) -> Transform:
+def _inverse(place: Float[Array, "4 4"]) -> Float[Array, "4 4"]:
     """Compute the inverse of a place: with its rotation R and origin t, R^T and -R^T t."""
     turn = place[:3, :3].T
     return place.at[:3, :3].set(turn).at[:3, 3].set(-jnp.sum(turn * place[:3, 3], axis=1))
@@ -221,7 +220,7 @@ def _back(advance: Any, turn: tuple[Any, Any] | None) -> tuple[Any, Any]:
     return None if advance is None else -advance, None if turn is None else (turn[0], -turn[1])
 
 
-def _times(row: Row, frame: Transform) -> Row:
+def _times(row: WeightRow, frame: Float[Array, "4 4"]) -> WeightRow:
     """Multiply a row by a frame from the right."""
     found = [row[0] * frame[0, j] + row[1] * frame[1, j] + row[2] * frame[2, j] for j in range(4)]
     return [*found[:3], found[3] + row[3]]

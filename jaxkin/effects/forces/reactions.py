@@ -16,9 +16,18 @@ from jaxtyping import Array, Float, Int
 from jaxkin._grouped import MAX_LINES
 from jaxkin._named import Named
 from jaxkin._names import nearest
+from jaxkin.effects.forces.acting import (
+    STANDARD_GRAVITY,
+    Acting,
+    ActingNumbers,
+    acting_numbers,
+    check,
+    given_rates,
+    loads_and_frictions,
+)
 from jaxkin.effects.forces.balance import balance, solve
 from jaxkin.effects.forces.changes import ORDER, Changes, changes, unmoved
-from jaxkin.effects.forces.friction import friction
+from jaxkin.effects.forces.friction import with_friction
 from jaxkin.effects.forces.friction_result import Friction
 from jaxkin.effects.forces.given import Applied
 from jaxkin.effects.forces.masses import Masses
@@ -26,25 +35,12 @@ from jaxkin.effects.forces.moving_parts import MovingParts
 from jaxkin.effects.forces.pose_groups import by_groups
 from jaxkin.effects.forces.screws import Scale, cross
 from jaxkin.effects.forces.undetermined import Undetermined, undetermined
-from jaxkin.effects.forces.wrenches import (
-    STANDARD_GRAVITY,
-    Acting,
-    ActingNumbers,
-    Loads,
-    Wrench,
-    acting_numbers,
-    acting_on,
-    check,
-    given_rates,
-    loads,
-    loads_and_frictions,
-    units_of,
-)
+from jaxkin.effects.forces.wrenches import Loads, acting_on, loads, units_of
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.units import METRES
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.mechanism.known_motion import Inputs, KnownDrive, Rows, known_motion
+from jaxkin.mechanism.known_motion import Inputs, KnownDrive, known_motion
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.singularity import singular_report
 from jaxkin.solve.execution.compiler import whole_program
@@ -158,15 +154,15 @@ jax.tree_util.register_dataclass(
 )
 
 
-class _JointRows(NamedTuple):
+class _JointReactions(NamedTuple):
     """The fields of `Reactions` of these names, of all joints in the order of the linkage."""
 
-    points: Rows
-    forces: Rows
-    torques: Rows
+    points: tuple[Float[Array, "poses 3"], ...]
+    forces: tuple[Float[Array, "poses 3"], ...]
+    torques: tuple[Float[Array, "poses 3"], ...]
     drives: Inputs
     """By full name of the driven coordinate."""
-    held: Rows
+    held: tuple[Float[Array, "poses _"], ...]
 
 
 def reactions(
@@ -197,15 +193,15 @@ def reactions(
         found = unmoved(drive, known, motion.inputs)
     else:
         found = changes(drive, known, motion.inputs, speeds, along=False)
-    unit, linkage, numbers, result = mechanism.unit, mechanism.linkage, acting_numbers(acting), None
+    linkage, numbers, result = mechanism.linkage, acting_numbers(acting), None
     if frictions := loads_and_frictions(acting)[1]:
-        moving, all_loads = acting_on(unit, True, linkage, found, numbers)
-        frictional, result = friction(motion, drive, moving, all_loads, frictions)
-        rows = _balanced(drive, unit, linkage, known.status, moving, all_loads, frictional)
+        moving, all_loads = acting_on(drive.unit, True, linkage, found, numbers)
+        all_loads, result = with_friction(motion, drive, moving, all_loads, frictions)
+        rows = _balanced(drive, linkage, known.status, moving, all_loads)
         if result is not None:
             rows = jax.tree.map(partial(_nan_where, result.locked), rows)._replace(points=rows.points)
     else:
-        rows = _without_friction(drive, unit, linkage, known.status, found, numbers)
+        rows = _without_friction(drive, linkage, known.status, found, numbers)
 
     def named(of_joints: Sequence[Array]) -> Named[Array]:
         return Named("joint", zip(mechanism.joints, of_joints, strict=True))
@@ -220,35 +216,30 @@ def _nan_where(locked: Array, rows: Array) -> Array:
     return jnp.where(locked.reshape(-1, *[1] * (rows.ndim - 1)), jnp.nan, rows)
 
 
-@partial(whole_program, static=(0, 1))
+@partial(whole_program, static=(0,))
 def _without_friction(
-    drive: KnownDrive, unit: str, linkage: Linkage, status: Int[Array, " poses"], found: Changes, acting: ActingNumbers
-) -> _JointRows:
+    drive: KnownDrive, linkage: Linkage, status: Int[Array, " poses"], found: Changes, acting: ActingNumbers
+) -> _JointReactions:
     """Compute what `_balanced` returns, by groups of poses that are placed and solved one after another."""
 
-    def of_group(given: tuple[Int[Array, " poses"], Changes], acting: ActingNumbers) -> _JointRows:
+    def of_group(given: tuple[Int[Array, " poses"], Changes], acting: ActingNumbers) -> _JointReactions:
         status, found = given
         moving = MovingParts.of(linkage, found, chords=True)
-        return _balanced(drive, unit, linkage, status, moving, loads(linkage, unit, acting, moving), {})
+        return _balanced(drive, linkage, status, moving, loads(linkage, drive.unit, acting, moving))
 
     return by_groups(of_group, (status, found), acting)
 
 
-@partial(whole_program, static=(0, 1))
+@partial(whole_program, static=(0,))
 def _balanced(
     drive: KnownDrive,
-    unit: str,
     linkage: Linkage,
     status: Int[Array, " poses"],
     moving: MovingParts,
     all_loads: Loads,
-    frictional: dict[int, Wrench],
-) -> _JointRows:
-    """Balance all parts in each pose, and compute what joints transmit: NaN at poses that are not closed.
-
-    The wrenches `frictional` of friction act on part 2 of joints, by number.
-    """
-    metre, closed = METRES[unit], is_closed_on_branch(status)
+) -> _JointReactions:
+    """Balance all parts in each pose, and compute what joints transmit: NaN at poses that are not closed."""
+    metre, closed = METRES[drive.unit], is_closed_on_branch(status)
     driven = {(joint, k): name for name, joint, k in drive.driven}
     found = balance(linkage, moving.at, moving.displacements, list(driven))
     size, middle = moving.at.scale
@@ -258,7 +249,7 @@ def _balanced(
         return 1.0 if is_length(linkage.joints[joint].coordinates[k]) else size * metre
 
     loads = {at: load / lever(*at) for at, load in all_loads.joints.items()}
-    for joint, wrench in frictional.items():
+    for joint, wrench in all_loads.friction.items():
         for k, screw in enumerate(found.screws[joint]):
             loads[joint, k] = loads.get((joint, k), 0.0) + jnp.sum(wrench * screw, axis=0)
     loaded = {at: load for at, load in loads.items() if at not in driven}
@@ -283,4 +274,4 @@ def _balanced(
         for arm, wrench in zip(found.arms, sent.wrenches, strict=True)
     )
     points = tuple((size * arm + middle[:, None]).T for arm in found.arms)
-    return _JointRows(points, forces, torques, drives, held)
+    return _JointReactions(points, forces, torques, drives, held)

@@ -13,8 +13,9 @@ from jaxkin._traced import traced
 from jaxkin.effects.forces.balance import Balance, balance
 from jaxkin.effects.forces.places import places
 from jaxkin.joints.joint import JointCoordinate
+from jaxkin.linkage.joint_motion import JointDisplacements
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.mechanism.known_motion import Rows, known_motion
+from jaxkin.mechanism.known_motion import known_motion
 from jaxkin.mechanism.motion import Motion
 from jaxkin.solve.execution.compiler import whole_program
 
@@ -64,7 +65,7 @@ def undetermined(motion: Motion) -> tuple[Undetermined, ...]:
 
 
 @partial(whole_program, static=(0,))
-def _placed(driven: tuple[JointCoordinate, ...], linkage: Linkage, displacements: Rows) -> Balance:
+def _placed(driven: tuple[JointCoordinate, ...], linkage: Linkage, displacements: JointDisplacements) -> Balance:
     """Place all joints in one program: each operation by itself would be compiled, too."""
     return balance(linkage, places(linkage, displacements, chords=True), displacements, driven)
 

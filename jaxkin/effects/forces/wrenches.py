@@ -6,40 +6,29 @@ product with a twist (`screws`), times the size, is power. The poses are the las
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
 from functools import partial
 from typing import Any, NamedTuple
 
 import jax.numpy as jnp
-import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin._arguments import check_motion, numbers, several
-from jaxkin._names import nearest
-from jaxkin._traced import traced
+from jaxkin.effects.forces.acting import ActingNumbers, loaded_coordinate
 from jaxkin.effects.forces.changes import Changes
-from jaxkin.effects.forces.friction_of import check_friction
-from jaxkin.effects.forces.given import Applied, Force, JointFriction, JointLoad, Spring, Torque, rows_per_pose
+from jaxkin.effects.forces.given import Force, JointLoad, Spring, Torque
 from jaxkin.effects.forces.inertia import weights_and_inertia
-from jaxkin.effects.forces.masses import Masses
 from jaxkin.effects.forces.moving_parts import MovingParts
 from jaxkin.effects.forces.screws import turned, velocity_at, wrench_at
-from jaxkin.effects.rates import tangents_of
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.units import METRES
 from jaxkin.joints.joint import JointCoordinate
-from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.mechanism.known_motion import Inputs
 from jaxkin.mechanism.motion import Motion
 from jaxkin.solve.execution.compiler import whole_program
 
 Wrench = Float[Array, "6 _"]
 """Torque over the size of the mechanism, then force: newtons. The last axis is the poses, or one for all poses."""
 
-Load = Force | Torque | Spring | JointLoad
 
-STANDARD_GRAVITY = (0.0, 0.0, -9.81)
 MEETING = 0.6
 """Power of rounding: the ends of a spring meet within this of the size, 4e-10 in float64, above what poses are off."""
 
@@ -51,24 +40,8 @@ class Loads(NamedTuple):
     """On each part on which something acts and that is not fixed."""
     joints: dict[JointCoordinate, Float[Array, " poses"]]
     """Loads in coordinates (joint, coordinate): newton metres, newtons."""
-
-
-class Acting(NamedTuple):
-    """What a user asks for: the arguments that drive forces and reactions share."""
-
-    masses: Masses | None = None
-    gravity: Any = STANDARD_GRAVITY
-    applied: Sequence[Applied] | Applied = ()
-    rates: Mapping[str, Any] | None = None
-    accelerations: Mapping[str, Any] | None = None
-
-
-class ActingNumbers(NamedTuple):
-    """The numbers of an `Acting` that a program is given: no rates, and no friction, which depends on all else."""
-
-    masses: Masses | None
-    gravity: Float[Array | np.ndarray, "3"]
-    applied: tuple[Load, ...]
+    friction: dict[int, Wrench]
+    """Wrenches of friction on part 2 of joints, by number."""
 
 
 @partial(whole_program, static=(0, 1))
@@ -98,74 +71,7 @@ def loads(linkage: Linkage, unit: str, acting: ActingNumbers, moving: MovingPart
             for part, wrench in _on_parts(moving, each, lever):
                 if part in moving.at.parts:
                     found[part] = found.get(part, 0.0) + wrench
-    return Loads(found, in_joints)
-
-
-def loads_and_frictions(acting: Acting) -> tuple[tuple[Load, ...], tuple[JointFriction, ...]]:
-    """Split what is applied into loads and friction of joints, which depends on the loads; ValueError for all else."""
-    given = acting.applied
-    applied = (given,) if isinstance(given, Applied) else several(given, "applied", "loads", "[jk.force(...)]")
-    for each in applied:
-        if not isinstance(each, Applied):
-            raise ValueError(f"applied loads are made by jk.force, jk.torque, jk.spring, ..., got {each!r}")
-    loads = tuple(each for each in applied if not isinstance(each, JointFriction))
-    return loads, tuple(each for each in applied if isinstance(each, JointFriction))
-
-
-def check(motion: Motion, acting: Acting) -> None:
-    """Raise ValueError for arguments that do not fit the motion, with what to write instead."""
-    check_motion(motion, "forces")
-    mechanism, masses, (applied, frictions) = motion.mechanism, acting.masses, loads_and_frictions(acting)
-    for each in applied:
-        parts = each.parts if isinstance(each, Spring) else () if isinstance(each, JointLoad) else (each.part,)
-        for part in parts:
-            if part not in mechanism.parts:
-                raise ValueError(f"there is no part {part!r} to act on{nearest(str(part), mechanism.parts)}")
-    if masses is not None and not isinstance(masses, Masses):
-        raise ValueError(f"masses are made by jk.masses(mechanism, density), got {type(masses).__name__}")
-    if masses is not None and (masses.parts != mechanism.parts or masses.unit != mechanism.unit):
-        raise ValueError(
-            "the masses are those of another mechanism: its parts or its unit differ; write "
-            "jk.masses(motion.mechanism, ...)"
-        )
-    if masses is None and not applied:
-        raise ValueError("nothing acts: give jk.masses(mechanism, density), or applied=[jk.force(...)], or both")
-    poses = len(motion)
-    for each in applied:
-        for name in rows_per_pose(each):
-            count = len(getattr(each, name))
-            if count != poses:
-                raise ValueError(
-                    f"{_name_of(each)} must be given once or for each of the {poses} poses, got {count} rows"
-                )
-        if isinstance(each, JointLoad):
-            _loaded(mechanism.linkage, each)
-    check_friction(mechanism.linkage, frictions, acting.rates is not None)
-    if acting.rates is None and acting.accelerations is not None:
-        raise ValueError("accelerations were given without rates: write rates={'A': 0.0} for a start from rest")
-
-
-def acting_numbers(acting: Acting) -> ActingNumbers:
-    """Make arrays of what acts; ValueError for a gravity that is no vector."""
-    expected = "three finite numbers, m/s^2, as (0, 0, -9.81)"
-    gravity = numbers(acting.gravity, "gravity", expected)
-    if gravity.shape != (3,) or not (traced(gravity) or np.isfinite(gravity).all()):
-        raise ValueError(f"gravity must be {expected}, got {acting.gravity!r}")
-    return ActingNumbers(acting.masses, gravity, loads_and_frictions(acting)[0])
-
-
-def given_rates(motion: Motion, acting: Acting) -> tuple[Inputs, Inputs] | None:
-    """Complete first and second derivatives of all inputs; None at rest; ValueError as `jk.accelerations`."""
-    if acting.rates is None:
-        return None
-    return tangents_of(motion, acting.rates), tangents_of(motion, acting.accelerations or {})
-
-
-def _name_of(load: Load) -> str:
-    """Name a load in a message."""
-    if isinstance(load, Spring):
-        return f"the spring of {load.parts[0]!r} and {load.parts[1]!r}"
-    return f"the load in {load.coordinate!r}" if isinstance(load, JointLoad) else f"the load on {load.part!r}"
+    return Loads(found, in_joints, {})
 
 
 def _rows(values: Any) -> Array:
@@ -217,21 +123,11 @@ def _of_spring(moving: MovingParts, load: Spring, lever: Any):
     yield load.parts[1], wrench_at(ends[1], -pull)
 
 
-def _loaded(linkage: Linkage, load: JointLoad) -> JointCoordinate:
-    """Resolve the (joint, coordinate) of a load; ValueError where it is an angle of a ball."""
-    joint, index = coordinate(linkage, load.coordinate)
-    if any(index in group and len(group) > 1 for group in linkage.joints[joint].driven_together):
-        raise ValueError(
-            f"{load.coordinate!r} is an angle of a ball, which has no axis of its own: write jk.torque or jk.spring"
-        )
-    return joint, index
-
-
 def _in_joint(
     linkage: Linkage, unit: str, moving: MovingParts, load: JointLoad
 ) -> tuple[JointCoordinate, Float[Array, " poses"]]:
     """Compute a load in a coordinate, newton metres or newtons: load - stiffness (q - rest) - damping q'."""
-    joint, index = _loaded(linkage, load)
+    joint, index = loaded_coordinate(linkage, load)
     metre = metres_of(linkage.joints[joint].coordinates[index], unit)
     given, stiffness, rest, damping = (_rows(x) for x in (load.load, load.stiffness, load.rest, load.damping))
     found = given - stiffness * metre * (moving.displacements[joint][:, index] - rest)

@@ -16,7 +16,7 @@ from jaxkin.linkage.coordinates import coordinates
 from jaxkin.mechanism.inverse.aims import aims_of
 from jaxkin.mechanism.inverse.bounded import Bounds
 from jaxkin.mechanism.inverse.problem import InverseProblem
-from jaxkin.mechanism.inverse.solution import CLOSED, REACHED, Solution, from_assembled, from_random, from_unlimited
+from jaxkin.mechanism.inverse.solution import CLOSED, REACHED, InversePoses, from_assembled, from_random, from_unlimited
 from jaxkin.mechanism.joint_limits import with_limited
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mobility.open_loops import opening
@@ -133,7 +133,7 @@ def inverse(
     if np.any((found[0].error > REACHED) & stopped.any(axis=1)):
         found.append(from_unlimited(problem, bounds, iterations))
     found += from_random(problem, bounds, iterations, starts - 1, seed)
-    every = Solution(*(np.stack(each) for each in zip(*found, strict=True)))
+    every = InversePoses(*(np.stack(each) for each in zip(*found, strict=True)))
     errors = np.where(every.closure <= CLOSED, every.error, np.inf)
     least = errors.min(axis=0)
     best = np.where(errors[0] <= least + REACHED, 0, errors.argmin(axis=0))

@@ -45,7 +45,7 @@ ESCAPES = 3
 """How often a pose steps off where its errors are stationary and not least."""
 
 
-class Solution(NamedTuple):
+class InversePoses(NamedTuple):
     """Poses as they were found from one start."""
 
     x: Float[np.ndarray, "poses columns"]
@@ -58,7 +58,7 @@ class Solution(NamedTuple):
     """Whether no movement within loops and limits lessens the error, to first order."""
 
 
-def from_assembled(problem: InverseProblem, bounds: Bounds, iterations: int) -> Solution:
+def from_assembled(problem: InverseProblem, bounds: Bounds, iterations: int) -> InversePoses:
     """Solve from the assembled pose, along targets that move from there to where they are asked for."""
     x = np.clip(np.zeros((problem.poses, len(problem.units))), *bounds)
     x, _ = step_off(problem, x, bounds, 1 / STAGES, REACHED)
@@ -67,7 +67,7 @@ def from_assembled(problem: InverseProblem, bounds: Bounds, iterations: int) -> 
     return _finished(problem, x, bounds, iterations)
 
 
-def from_unlimited(problem: InverseProblem, bounds: Bounds, iterations: int) -> Solution:
+def from_unlimited(problem: InverseProblem, bounds: Bounds, iterations: int) -> InversePoses:
     """Solve without limits from the assembled pose, and from there within them, after whole turns that lead into them.
 
     A hinge that stops on its way to a place may get there the other way round.
@@ -76,7 +76,9 @@ def from_unlimited(problem: InverseProblem, bounds: Bounds, iterations: int) -> 
     return _finished(problem, np.clip(x, *bounds), bounds, iterations)
 
 
-def from_random(problem: InverseProblem, bounds: Bounds, iterations: int, count: int, seed: int) -> Iterator[Solution]:
+def from_random(
+    problem: InverseProblem, bounds: Bounds, iterations: int, count: int, seed: int
+) -> Iterator[InversePoses]:
     """Solve from starts at random within the limits: as far as `InverseProblem.reach` to both sides of zero, or as near
     to it as the limits let that be."""
     rng, reach = np.random.default_rng(seed), problem.reach
@@ -89,7 +91,7 @@ def from_random(problem: InverseProblem, bounds: Bounds, iterations: int, count:
 
 def _finished(
     problem: InverseProblem, x: Float[np.ndarray, "poses columns"], bounds: Bounds, iterations: int
-) -> Solution:
+) -> InversePoses:
     """Solve for the whole targets, and again from beside poses whose errors are stationary and not least."""
     x = _iterated(problem, x, bounds, 1.0, iterations)
     for _ in range(ESCAPES):
@@ -99,7 +101,7 @@ def _finished(
         x = _iterated(problem, x, bounds, 1.0, iterations)
     now, _ = problem.equations(x, 1.0)
     error, closure = (np.linalg.norm(each, axis=1) for each in (now.targets, now.closure))
-    return Solution(x, error, closure, (error <= REACHED) | is_stationary(now, x, bounds))
+    return InversePoses(x, error, closure, (error <= REACHED) | is_stationary(now, x, bounds))
 
 
 def _iterated(

@@ -1,6 +1,6 @@
 """What formulas compute with: NumPy where all their numbers are NumPy's, `jax.numpy` where any is an array of JAX.
 
-So a few poses of a known mechanism, such as the nodes of its line (`line`), need no compiled program.
+So a few poses of a known mechanism, such as the nodes of its line (`input_line`), need no compiled program.
 """
 
 from __future__ import annotations

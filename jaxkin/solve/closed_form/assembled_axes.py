@@ -19,36 +19,35 @@ from jaxkin.solve.system.chain_tables import AXES, chain_tables
 from jaxkin.solve.system.joints import Joints, scaled_frames
 from jaxkin.solve.system.loop_system import LoopSystem
 
-Numbers = Float[Array | np.ndarray, "..."]
-Poses = Float[Array | np.ndarray, "chains 4 4"]
+RigidPoses = Float[Array | np.ndarray, "chains 4 4"]
 
 
-class Axes(NamedTuple):
+class AssembledAxes(NamedTuple):
     """The axes of all rows of `ChainTables`, lengths over the characteristic length, origin in the centroid.
 
-    Vectors have two entries in planar systems, in the plane; a turn has no `direction` there. Those of a loop that is
-    cut at a ball are in the frame behind that ball.
+    Vectors have two components, in the plane, in planar systems; a turn has no `direction` there. The axes of a loop
+    that is cut at a ball are in the frame behind that ball.
     """
 
-    direction: Numbers
-    """(rows, chains, 2 or 3): unit vectors."""
-    centre: Numbers
-    """(rows, chains, 2 or 3): points of the axes."""
-    sense: Numbers
-    """(rows, chains): 1, or -1 where the coordinate counts backwards, as the chain is travelled; 0 for no motion."""
-    advance: Numbers
-    """(rows, chains): slide for a coordinate of 1, in the direction."""
-    open_turn: Numbers
-    """(chains, 2 or 3, 2 or 3): rotation that is left open."""
-    open_shift: Numbers
-    """(chains, 2 or 3): translation that is left open."""
-    off_plane: Numbers
+    direction: Float[Array | np.ndarray, "rows chains components"]
+    """Unit vectors."""
+    centre: Float[Array | np.ndarray, "rows chains components"]
+    """Points of the axes."""
+    sense: Float[Array | np.ndarray, "rows chains"]
+    """1, or -1 where the coordinate counts backwards, as the chain is travelled; 0 for no motion."""
+    advance: Float[Array | np.ndarray, "rows chains"]
+    """Slide for a coordinate of 1, in the direction."""
+    open_turn: Float[Array | np.ndarray, "chains components components"]
+    """Rotation that is left open."""
+    open_shift: Float[Array | np.ndarray, "chains components"]
+    """Translation that is left open."""
+    off_plane: Float[Array | np.ndarray, ""]
     """Squared residual out of the plane (Eq. 12), which no motion in the plane can close."""
-    length: Numbers
+    length: Float[Array | np.ndarray, ""]
     """The characteristic length."""
 
 
-def assembled_axes(system: LoopSystem, joints: Joints) -> Axes:
+def assembled_axes(system: LoopSystem, joints: Joints) -> AssembledAxes:
     """Find the axes from the frames of the joints: in NumPy, without compiling anything, unless JAX traces them."""
     xp: Any = jnp if traced(joints) else np
     table = chain_tables(system)
@@ -66,19 +65,19 @@ def assembled_axes(system: LoopSystem, joints: Joints) -> Axes:
     advance = table.slide + table.screw * pitch[table.joint] / TURN
     turn, shift = last[:, :3, :3], last[:, :3, 3]
     if not system.planar:
-        return Axes(direction, point, sense, advance, turn, shift, xp.zeros(()), length)
+        return AssembledAxes(direction, point, sense, advance, turn, shift, xp.zeros(()), length)
 
     moves = table.column < system.columns
     turns = moves & (table.turn > 0)
     row, chain = np.argwhere(turns)[0]
     plane, normal = found[row, chain, :3, :2].T, direction[row, chain]
-    off_plane = squared_off_plane(direction, turns, moves, normal, turn, shift, xp)
+    off_plane = squared_off_plane(direction, turns, moves, normal, last, xp)
     sense = xp.where(turns, sense * xp.sign(direction @ normal), sense)
     flat = xp.einsum("ai,cij,bj->cab", plane, turn, plane)
-    return Axes(direction @ plane.T, point @ plane.T, sense, advance, flat, shift @ plane.T, off_plane, length)
+    return AssembledAxes(direction @ plane.T, point @ plane.T, sense, advance, flat, shift @ plane.T, off_plane, length)
 
 
-def _inverse(poses: Poses, xp: Any) -> Poses:
+def _inverse(poses: RigidPoses, xp: Any) -> RigidPoses:
     """Invert rigid poses."""
     turned = xp.swapaxes(poses[:, :3, :3], 1, 2)
     moved = -xp.einsum("cij,cj->ci", turned, poses[:, :3, 3])

@@ -31,26 +31,26 @@ PARABOLA_ERROR = 0.064
 """Largest error of a parabola through three nodes between two of them, over h^3 times the third derivative: that of
 t (t - 1) (t + 1) / 6 for t from 0 to 1."""
 
-Numbers = Array | np.ndarray
-Rows = Sequence[Float[Numbers, " _"]] | Float[Numbers, "_ _"]
-"""One row after another; of a known line one array, so that a program that is given the line has few arguments."""
+NodeRows = Sequence[Float[Array | np.ndarray, " _"]] | Float[Array | np.ndarray, "_ _"]
+"""Rows of numbers at the nodes, or at the intervals between them; of a known line one array, so that a program that is
+given the line has few arguments."""
 
 
 class LineCertificate(NamedTuple):
     """What the discriminants at the nodes of a line prove of the intervals between neighbouring nodes."""
 
-    passes: Bool[Numbers, ""]
+    passes: Bool[Array | np.ndarray, ""]
     """Whether the motion passes all intervals."""
-    limited: Bool[Numbers, ""]
+    limited: Bool[Array | np.ndarray, ""]
     """Whether there surely is a limit."""
-    blocked: tuple[Int[Numbers, ""], Int[Numbers, ""]]
+    blocked: tuple[Int[Array | np.ndarray, ""], Int[Array | np.ndarray, ""]]
     """The first intervals downwards and upwards that the motion may not pass as a whole; -1 and their number if it
     does."""
-    table: list[Float[Numbers, " intervals"]]
+    table: list[Float[Array | np.ndarray, " intervals"]]
     """What `certify_poses` reads of the interval of a pose, in the order of its lines."""
 
 
-def surely_passes(discriminants: Rows, steep: Bool[Numbers, " intervals"]) -> Bool[Array, ""]:
+def surely_passes(discriminants: NodeRows, steep: Bool[Array | np.ndarray, " intervals"]) -> Bool[Array, ""]:
     """Tell whether the motion passes a line by a wide margin, by the largest differences of the whole line.
 
     It costs less than `certify_line`, which may find that the motion passes where this does not.
@@ -65,7 +65,9 @@ def surely_passes(discriminants: Rows, steep: Bool[Numbers, " intervals"]) -> Bo
     return passes
 
 
-def certify_line(discriminants: Rows, steep: Bool[Numbers, " intervals"], first: int, last: int) -> LineCertificate:
+def certify_line(
+    discriminants: NodeRows, steep: Bool[Array | np.ndarray, " intervals"], first: int, last: int
+) -> LineCertificate:
     """Judge a line of nodes, travelled upwards from the node `first` and downwards from the node `last`.
 
     `discriminants` are those of all groups at all nodes; `steep` are intervals in which a turn is too large to unwrap.
@@ -94,7 +96,7 @@ def certify_line(discriminants: Rows, steep: Bool[Numbers, " intervals"], first:
     return LineCertificate(~xp.any(blocked), xp.any(beyond), (block_below, block_above), table)
 
 
-def unwrapped(turns: Sequence[Complex]) -> list[Float[Numbers, " nodes"]]:
+def unwrapped(turns: Sequence[Complex]) -> list[Float[Array | np.ndarray, " nodes"]]:
     """Compute the angles of turns at all nodes, radians, right to 0.08, each the nearest to the one before."""
     if not turns:
         return []
@@ -109,7 +111,7 @@ def unwrapped(turns: Sequence[Complex]) -> list[Float[Numbers, " nodes"]]:
     return [angle - TURN * xp.concatenate([np.zeros(1), row]) for angle, row in zip(angles, sums, strict=True)]
 
 
-def is_steep(turn: Complex) -> Bool[Numbers, " intervals"]:
+def is_steep(turn: Complex) -> Bool[Array | np.ndarray, " intervals"]:
     """Tell in which intervals an angle changes by more than `MAX_TURN`: by the cosine of its change."""
     xp = namespace(*turn)
     real, imag = map(xp.asarray, turn)
@@ -119,15 +121,15 @@ def is_steep(turn: Complex) -> Bool[Numbers, " intervals"]:
 class _Bounds(NamedTuple):
     """What is known of a discriminant f between neighbouring nodes, h apart."""
 
-    least: Float[Numbers, " intervals"]
+    least: Float[Array | np.ndarray, " intervals"]
     """f is not below it."""
-    curvature: Float[Numbers, " intervals"]
+    curvature: Float[Array | np.ndarray, " intervals"]
     """h^2 |f"| is at most so much."""
-    monotone: Bool[Numbers, " intervals"]
+    monotone: Bool[Array | np.ndarray, " intervals"]
     """Whether f only rises or only falls."""
 
 
-def _bounds(f: Float[Numbers, " nodes"]) -> _Bounds:
+def _bounds(f: Float[Array | np.ndarray, " nodes"]) -> _Bounds:
     """Bound a discriminant between neighbouring nodes by its differences."""
     xp = namespace(f)
     one, other, change = f[:-1], f[1:], f[1:] - f[:-1]
@@ -156,7 +158,7 @@ class PoseCertificates(NamedTuple):
 
 
 def certify_poses(
-    table: Rows,
+    table: NodeRows,
     interval: Int[Array, " poses"],
     distance: Float[Array, " poses"],
     discriminants: Sequence[Array | np.ndarray],
@@ -182,6 +184,8 @@ def certify_poses(
     return PoseCertificates((from_below, from_above), (after_limit, before_limit))
 
 
-def at_intervals(row: Float[Numbers, " intervals"], interval: Int[Array, " poses"]) -> Float[Array, " poses"]:
+def at_intervals(
+    row: Float[Array | np.ndarray, " intervals"], interval: Int[Array, " poses"]
+) -> Float[Array, " poses"]:
     """Look up the entry of the interval of each pose."""
     return jnp.asarray(row).at[interval].get(mode="clip")

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
-from jaxkin.solve.closed_form.assembled_axes import Axes
+from jaxkin.solve.closed_form.assembled_axes import AssembledAxes
 from jaxkin.solve.closed_form.complex_numbers import Complex, scale
-from jaxkin.solve.closed_form.coordinate import Coordinate, Coordinates
+from jaxkin.solve.closed_form.coordinate import Coordinate, FormulaCoordinates
 from jaxkin.solve.closed_form.planar_dyad import PlanarDisplacement, about, compose
 from jaxkin.solve.closed_form.vectors import Vector, rotate
 from jaxkin.solve.system.chain_tables import chain_tables
@@ -21,16 +22,29 @@ def moving_rows(system: LoopSystem, chain: int, begin: int = 0, end: int | None 
     return [row for row in range(begin, len(column) if end is None else end) if column[row] < system.columns]
 
 
-def planar_place(system: LoopSystem, axes: Axes, row: int, chain: int) -> Complex:
+class ChainSection(NamedTuple):
+    """Rows of a chain, one after another in order of travel."""
+
+    system: LoopSystem
+    axes: AssembledAxes
+    chain: int
+    rows: Sequence[int]
+
+    @staticmethod
+    def of(system: LoopSystem, axes: AssembledAxes, chain: int, begin: int = 0, end: int | None = None) -> ChainSection:
+        """Take the rows that move, from `begin` to before `end`, by default all."""
+        return ChainSection(system, axes, chain, moving_rows(system, chain, begin, end))
+
+
+def planar_place(system: LoopSystem, axes: AssembledAxes, row: int, chain: int) -> Complex:
     """Find the centre of a row that turns, or the direction of one that slides."""
     x, y = (axes.centre if chain_tables(system).turn[row, chain] else axes.direction)[row, chain]
     return Complex(x, y)
 
 
-def planar_product(
-    system: LoopSystem, axes: Axes, chain: int, rows: Sequence[int], x: Coordinates
-) -> PlanarDisplacement:
-    """Multiply the motions of some rows of a chain at the coordinates `x`."""
+def planar_product(section: ChainSection, x: FormulaCoordinates) -> PlanarDisplacement:
+    """Multiply the motions of a section of a chain at the coordinates `x`."""
+    system, axes, chain, rows = section
     table = chain_tables(system)
     zero, one = np.zeros(1), np.ones(1)
     product = None
@@ -45,24 +59,17 @@ def planar_product(
     return product or PlanarDisplacement(Complex(one, zero), Complex(zero, zero))
 
 
-def planar_rest(axes: Axes, chain: int) -> PlanarDisplacement:
+def planar_rest(axes: AssembledAxes, chain: int) -> PlanarDisplacement:
     """Compute what a chain leaves open in the assembled pose."""
     (cos, _), (sin, _) = axes.open_turn[chain]
     return PlanarDisplacement(Complex(cos, sin), Complex(*axes.open_shift[chain]))
 
 
 def displace(
-    system: LoopSystem,
-    axes: Axes,
-    chain: int,
-    rows: Sequence[int],
-    x: Coordinates,
-    vector: Vector,
-    *,
-    inverse: bool = False,
-    free: bool = False,
+    section: ChainSection, x: FormulaCoordinates, vector: Vector, *, inverse: bool = False, free: bool = False
 ) -> Vector:
-    """Displace a point by the product of the motions of some rows, or its inverse; a `free` vector is only turned."""
+    """Displace a point by the product of the motions of a section, or its inverse; a `free` vector is only turned."""
+    system, axes, chain, rows = section
     table = chain_tables(system)
     for row in rows if inverse else reversed(rows):
         axis, centre = axes.direction[row, chain, :, None], axes.centre[row, chain, :, None]
@@ -77,7 +84,7 @@ def displace(
     return vector
 
 
-def _known(x: Coordinates, column: int) -> Coordinate:
+def _known(x: FormulaCoordinates, column: int) -> Coordinate:
     """Look up the coordinate of a column; ValueError where it is not solved yet."""
     found = x[column]
     if found is None:

@@ -41,7 +41,7 @@ class Coordinate(NamedTuple):
         return Coordinate(None if self.known is None else -self.known, conj(self.turn))
 
 
-Coordinates = Sequence[Coordinate | None]
+FormulaCoordinates = Sequence[Coordinate | None]
 """For each column of the system its coordinate; None where it is not known yet."""
 REST = Coordinate(np.zeros(1), Complex(np.ones(1), np.zeros(1)))
 """A coordinate of the assembled pose."""

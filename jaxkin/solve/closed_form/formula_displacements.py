@@ -10,7 +10,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Float
 
-from jaxkin.solve.closed_form.assembled_axes import Axes, assembled_axes
+from jaxkin.solve.closed_form.assembled_axes import AssembledAxes, assembled_axes
 from jaxkin.solve.closed_form.planar_derivative import planar_slopes
 from jaxkin.solve.closed_form.range_by_formula import FormulaPoses, scaled_inputs
 from jaxkin.solve.closed_form.solve_groups import solve_groups
@@ -34,7 +34,7 @@ def displacements_by_formula(
     joints: Joints,
     inputs: Float[Array, "1 poses"],
     found: FormulaPoses,
-    axes: Axes | None = None,
+    axes: AssembledAxes | None = None,
 ) -> Float[Array, "columns poses"]:
     """Compute the displacements of all joints in the poses found, as differentiable functions of joints and inputs.
 
@@ -50,7 +50,7 @@ def displacements_by_formula(
 
 @partial(jax.custom_jvp, nondiff_argnums=(0,))
 def _with_derivative(
-    system: LoopSystem, axes: Axes, values: Float[Array, "1 poses"], found: FormulaPoses
+    system: LoopSystem, axes: AssembledAxes, values: Float[Array, "1 poses"], found: FormulaPoses
 ) -> tuple[Float[Array, " poses"], ...]:
     """Return the coordinates of poses that were found, which cost nothing anew, with the derivatives of the formulas.
 
@@ -79,7 +79,7 @@ def _derivative_of_formulas(system: LoopSystem, primals, tangents):
             return rows, tuple(in_groups(jax.checkpoint(slopes_of), poses, SLOPE_GROUP))
         return rows, tuple(slopes_of(poses))
 
-    def formulas(axes: Axes, values: Float[Array, "1 poses"]) -> tuple[Float[Array, " poses"], ...]:
+    def formulas(axes: AssembledAxes, values: Float[Array, "1 poses"]) -> tuple[Float[Array, " poses"], ...]:
         solved = solve_groups(system, axes, list(found.signs), jnp.where(closed, values, 0.0))
         return tuple(jnp.asarray(coordinate.value) for coordinate in solved.coordinates)
 
@@ -88,7 +88,7 @@ def _derivative_of_formulas(system: LoopSystem, primals, tangents):
 
 
 def joint_displacements(
-    system: LoopSystem, joints: Joints | None, axes: Axes, rows: Sequence[Float[Array, " poses"]] | Array
+    system: LoopSystem, joints: Joints | None, axes: AssembledAxes, rows: Sequence[Float[Array, " poses"]] | Array
 ) -> Float[Array, "columns poses"]:
     """Compute the displacements of all joints, balls included, from coordinates in radians and characteristic lengths.
 

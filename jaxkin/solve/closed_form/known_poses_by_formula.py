@@ -13,7 +13,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from jaxkin.solve.closed_form.assembled_axes import Axes
+from jaxkin.solve.closed_form.assembled_axes import AssembledAxes
 from jaxkin.solve.closed_form.planar_derivative import planar_slopes
 from jaxkin.solve.status import closes_before_limits
 from jaxkin.solve.system.loop_system import LoopSystem
@@ -21,7 +21,7 @@ from jaxkin.solve.system.loop_system import LoopSystem
 
 def known_displacements_by_formula(
     system: LoopSystem,
-    axes: Axes,
+    axes: AssembledAxes,
     inputs: Float[Array, "driven poses"],
     known: Float[Array, "columns poses"],
     status: Int[Array, " poses"],
@@ -37,7 +37,7 @@ def known_displacements_by_formula(
 @partial(jax.custom_jvp, nondiff_argnums=(0,))
 def _attached(
     system: LoopSystem,
-    axes: Axes,
+    axes: AssembledAxes,
     inputs: Float[Array, "driven poses"],
     known: Float[Array, "columns poses"],
     closed: Bool[Array, " poses"],

@@ -25,14 +25,12 @@ from jaxtyping import Array, Float
 
 from jaxkin.geometry.trig import cos_sin
 from jaxkin.solve.closed_form.arithmetic import Number
-from jaxkin.solve.closed_form.assembled_axes import Axes
+from jaxkin.solve.closed_form.assembled_axes import AssembledAxes
 from jaxkin.solve.closed_form.chain_motions import moving_rows, planar_place
 from jaxkin.solve.closed_form.complex_numbers import Complex, add, cross, scale, subtract, times
 from jaxkin.solve.closed_form.group_formulas import GroupFormula, group_formulas
 from jaxkin.solve.system.chain_tables import chain_tables
 from jaxkin.solve.system.loop_system import LoopSystem
-
-Row = Float[Array, " poses"]
 
 
 class _Screw(NamedTuple):
@@ -55,8 +53,12 @@ class _Chain(NamedTuple):
 
 
 def planar_slopes(
-    system: LoopSystem, axes: Axes, rows: Sequence[Row], d_axes: Axes | None, d_inputs: Float[Array, "driven poses"]
-) -> list[Row]:
+    system: LoopSystem,
+    axes: AssembledAxes,
+    rows: Sequence[Float[Array, " poses"]],
+    d_axes: AssembledAxes | None,
+    d_inputs: Float[Array, "driven poses"],
+) -> list[Float[Array, " poses"]]:
     """Compute the derivatives of all coordinates of closed poses, along derivatives of the axes and of the inputs.
 
     `rows` are the coordinates, radians and characteristic lengths; `d_axes` is None where the axes rest. Where the
@@ -88,7 +90,12 @@ def planar_slopes(
 
 
 def _twists(
-    system: LoopSystem, axes: Axes, chain: int, rows: Sequence[Row], turns: dict[int, Complex], d_axes: Axes | None
+    system: LoopSystem,
+    axes: AssembledAxes,
+    chain: int,
+    rows: Sequence[Float[Array, " poses"]],
+    turns: dict[int, Complex],
+    d_axes: AssembledAxes | None,
 ) -> _Chain:
     """Compute the twists of a chain: travel along it, and note the rotation and the shift of what lies before."""
     table = chain_tables(system)
@@ -127,7 +134,7 @@ def _twists(
     return _Chain(screws, cos * d_sin - sin * d_cos, Complex(velocity[0], velocity[1]))
 
 
-def _closing_rates(unknowns: Sequence[_Screw], turn: Row, velocity: Complex) -> list[Number]:
+def _closing_rates(unknowns: Sequence[_Screw], turn: Float[Array, " poses"], velocity: Complex) -> list[Number]:
     """Solve for the rates of three screws that, with a twist that is known, add up to zero.
 
     One of them turns at least: its rate is what turn is left, and the others move its centre.

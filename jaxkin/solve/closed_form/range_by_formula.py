@@ -25,13 +25,13 @@ from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.geometry.trig import TURN
 from jaxkin.solve.closed_form.arithmetic import namespace
-from jaxkin.solve.closed_form.assembled_axes import Axes
+from jaxkin.solve.closed_form.assembled_axes import AssembledAxes
 from jaxkin.solve.closed_form.branch_certificate import at_intervals, certify_line, certify_poses
 from jaxkin.solve.closed_form.complex_numbers import Complex, argument
 from jaxkin.solve.closed_form.coordinate import REST
-from jaxkin.solve.closed_form.line import (
+from jaxkin.solve.closed_form.input_line import (
     NODES,
-    Line,
+    InputLine,
     PassedLine,
     Windings,
     ends,
@@ -66,7 +66,7 @@ class FormulaPoses(NamedTuple):
     """Whether all poses are CLOSED, to rounding."""
 
 
-def line_of(system: LoopSystem, axes: Axes, inputs: Float[Array | np.ndarray, "1 poses"]) -> Line:
+def line_of(system: LoopSystem, axes: AssembledAxes, inputs: Float[Array | np.ndarray, "1 poses"]) -> InputLine:
     """Compute the line on which inputs are judged: a full turn, if the input is an angle, else the range of the inputs.
 
     `inputs` are in radians or lengths of the mechanism.
@@ -82,7 +82,7 @@ def _nodes(system: LoopSystem, values: Float[Array | np.ndarray, " poses"]) -> F
 
 
 def find_poses_and_line(
-    system: LoopSystem, axes: Axes, inputs: Float[Array, "1 poses"], tolerance: ClosureTolerance
+    system: LoopSystem, axes: AssembledAxes, inputs: Float[Array, "1 poses"], tolerance: ClosureTolerance
 ) -> FormulaPoses:
     """Find the poses, as `find_poses_by_formula`, of axes whose line is not known yet."""
     axes, inputs = lax.stop_gradient((axes, inputs))
@@ -93,8 +93,8 @@ def find_poses_and_line(
 
 def find_poses_by_formula(
     system: LoopSystem,
-    axes: Axes,
-    line: Line | PassedLine,
+    axes: AssembledAxes,
+    line: InputLine | PassedLine,
     inputs: Float[Array, "1 poses"],
     tolerance: ClosureTolerance,
 ) -> FormulaPoses:
@@ -111,8 +111,8 @@ def find_poses_by_formula(
 
 def _judged(
     system: LoopSystem,
-    axes: Axes,
-    line: Line | PassedLine,
+    axes: AssembledAxes,
+    line: InputLine | PassedLine,
     values: Float[Array, " poses"],
     solved: Solved,
     tolerance: ClosureTolerance,
@@ -176,7 +176,7 @@ def _at_nodes(system: LoopSystem, windings: Windings, values: Float[Array, " pos
 
 
 def _reached(
-    system: LoopSystem, line: Line, values: Float[Array, " poses"], discriminants: Sequence[Array | np.ndarray]
+    system: LoopSystem, line: InputLine, values: Float[Array, " poses"], discriminants: Sequence[Array | np.ndarray]
 ) -> tuple[Float[Array, "angles poses"], Bool[Array, " poses"], Bool[Array, " poses"]]:
     """Judge the motion from the assembled pose to poses, upwards and downwards.
 
@@ -214,7 +214,7 @@ def _reached(
 
 
 def scaled_inputs(
-    system: LoopSystem, axes: Axes, inputs: Float[Array | np.ndarray, "1 poses"]
+    system: LoopSystem, axes: AssembledAxes, inputs: Float[Array | np.ndarray, "1 poses"]
 ) -> Float[Array | np.ndarray, "1 poses"]:
     """Convert inputs to radians and characteristic lengths."""
     return inputs / axes.length if system.is_length[system.driven[0]] else inputs

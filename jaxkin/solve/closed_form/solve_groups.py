@@ -12,15 +12,15 @@ from jaxtyping import Array, Float
 
 from jaxkin.solve.closed_form import planar_dyad, rod, spherical_triangle
 from jaxkin.solve.closed_form.arithmetic import Number, namespace
-from jaxkin.solve.closed_form.assembled_axes import Axes
+from jaxkin.solve.closed_form.assembled_axes import AssembledAxes
 from jaxkin.solve.closed_form.chain_motions import (
+    ChainSection,
     displace,
-    moving_rows,
     planar_place,
     planar_product,
     planar_rest,
 )
-from jaxkin.solve.closed_form.coordinate import REST, Coordinate, Coordinates, found, given
+from jaxkin.solve.closed_form.coordinate import REST, Coordinate, FormulaCoordinates, found, given
 from jaxkin.solve.closed_form.group_formulas import GroupFormula, group_formulas
 from jaxkin.solve.closed_form.vectors import dot
 from jaxkin.solve.lockstep import computed_once
@@ -42,17 +42,17 @@ class Solved(NamedTuple):
         return namespace(*rows).stack(rows)
 
 
-def assembled_roots(system: LoopSystem, axes: Axes) -> list[Number]:
+def assembled_roots(system: LoopSystem, axes: AssembledAxes) -> list[Number]:
     """Compute the signed root of the discriminant of every group in the assembled pose: its sign is that of the branch.
 
     All coordinates are taken as zero there.
     """
-    rest: Coordinates = [REST] * system.columns
+    rest: FormulaCoordinates = [REST] * system.columns
     return [_signed_root(system, axes, formula, rest) for formula in _formulas(system)]
 
 
 def solve_groups(
-    system: LoopSystem, axes: Axes, signs: Sequence[Number], inputs: Float[Array | np.ndarray, "driven poses"]
+    system: LoopSystem, axes: AssembledAxes, signs: Sequence[Number], inputs: Float[Array | np.ndarray, "driven poses"]
 ) -> Solved:
     """Compute all coordinates for inputs in radians and characteristic lengths, on the branches of these signs."""
     xp = namespace(inputs, axes.centre)
@@ -71,7 +71,7 @@ def solve_groups(
 
 def solve_once(
     system: LoopSystem,
-    axes: Axes,
+    axes: AssembledAxes,
     signs: Float[Array | np.ndarray, "groups 1"],
     inputs: Float[Array | np.ndarray, "driven poses"],
 ) -> Solved:
@@ -79,7 +79,7 @@ def solve_once(
     if namespace(inputs, axes.centre) is np:
         return solve_groups(system, axes, list(signs), inputs)
 
-    def solved(axes: Axes, signs: Array, inputs: Array) -> Solved:
+    def solved(axes: AssembledAxes, signs: Array, inputs: Array) -> Solved:
         return jax.tree.map(jnp.asarray, solve_groups(system, axes, list(signs), inputs))
 
     return computed_once(solved, axes, signs, inputs)
@@ -94,7 +94,7 @@ def _formulas(system: LoopSystem) -> list[GroupFormula]:
 
 
 def _solve(
-    system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordinates, sign: Number
+    system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, x: FormulaCoordinates, sign: Number
 ) -> tuple[list[Coordinate], Number]:
     """Compute the coordinates of a group, and its discriminant."""
     if formula.name == "planar dyad":
@@ -112,7 +112,7 @@ def _solve(
     return [found(motion).times(sense) for motion, sense in zip(motions, senses, strict=True)], discriminant
 
 
-def _signed_root(system: LoopSystem, axes: Axes, formula: GroupFormula, rest: Coordinates) -> Number:
+def _signed_root(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, rest: FormulaCoordinates) -> Number:
     """Compute the signed root of the discriminant of a group, whose unknowns are zero, at the coordinates `rest`."""
     if formula.name == "planar dyad":
         return planar_dyad.signed_root(formula.letters, *_planar(system, axes, formula, rest))
@@ -125,27 +125,27 @@ def _signed_root(system: LoopSystem, axes: Axes, formula: GroupFormula, rest: Co
     return rod.signed_root_of_slide(axis, near, far)
 
 
-def _planar(system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordinates):
+def _planar(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, x: FormulaCoordinates):
     """Find the places and known displacements of a dyad: the arguments of `planar_dyad`."""
     chain, (one, two, three) = formula.chain, formula.rows
     places = [planar_place(system, axes, row, chain) for row in formula.rows]
 
     def product(begin: int, end: int | None) -> planar_dyad.PlanarDisplacement:
-        return planar_product(system, axes, chain, moving_rows(system, chain, begin, end), x)
+        return planar_product(ChainSection.of(system, axes, chain, begin, end), x)
 
     behind = planar_dyad.compose(product(three + 1, None), planar_rest(axes, chain))
     return places, [product(one + 1, two), product(two + 1, three), planar_dyad.compose(behind, product(0, one))]
 
 
-def _spherical(system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordinates):
+def _spherical(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, x: FormulaCoordinates):
     """Find the axes and known rotations of a spherical triangle: the arguments of `spherical_triangle`."""
     chain, (one, two, three) = formula.chain, formula.rows
     found = [axes.direction[row, chain, :, None] for row in formula.rows]
     eye = np.eye(3)
 
     def rotated(begin: int, end: int | None, columns: Array | np.ndarray):
-        rows = moving_rows(system, chain, begin, end)
-        turned = [displace(system, axes, chain, rows, x, column[:, None], free=True) for column in columns]
+        section = ChainSection.of(system, axes, chain, begin, end)
+        turned = [displace(section, x, column[:, None], free=True) for column in columns]
         xp = namespace(*turned)
         return xp.stack(xp.broadcast_arrays(*turned), axis=1)
 
@@ -159,7 +159,7 @@ def _spherical(system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordin
     ]
 
 
-def _rod(system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordinates):
+def _rod(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, x: FormulaCoordinates):
     """Find the balls of a rod as seen from the unknown, and the length of the rod: arguments of the formulas of `rod`.
 
     The chain begins in the first ball, at the origin of its coordinates, and ends in the second; the rod is the other
@@ -167,24 +167,24 @@ def _rod(system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordinates):
     """
     chain, (row,) = formula.chain, formula.rows
     origin = np.zeros((3, 1))
-    near = displace(system, axes, chain, moving_rows(system, chain, 0, row), x, origin, inverse=True)
-    behind = moving_rows(system, chain, row + 1)
-    far = displace(system, axes, chain, behind, x, axes.open_shift[chain, :, None])
+    near = displace(ChainSection.of(system, axes, chain, 0, row), x, origin, inverse=True)
+    far = displace(ChainSection.of(system, axes, chain, row + 1), x, axes.open_shift[chain, :, None])
     other = formula.other_chain
     if other is None:
         raise ValueError(f"the loop of {formula} is not cut at a rod")
-    rod_rows = moving_rows(system, other)
-    end = displace(system, axes, other, rod_rows, x, axes.open_shift[other, :, None])
+    end = _end(system, axes, other, x)
     return near, far, namespace(end).sqrt(dot(end, end))
 
 
-def _axis(axes: Axes, formula: GroupFormula):
+def _axis(axes: AssembledAxes, formula: GroupFormula):
     """Find the direction of the axis of the unknown, and a point on it."""
     here = formula.rows[0], formula.chain
     return axes.direction[here][:, None], axes.centre[here][:, None]
 
 
-def residual_norm(system: LoopSystem, axes: Axes, rows: Coordinates) -> Float[Array | np.ndarray, " poses"]:
+def residual_norm(
+    system: LoopSystem, axes: AssembledAxes, rows: FormulaCoordinates
+) -> Float[Array | np.ndarray, " poses"]:
     """Compute the square root of Eq. 12 over all loops, as `closure` does, of systems whose groups are formulas.
 
     `rows` are the coordinates of all columns.
@@ -193,7 +193,7 @@ def residual_norm(system: LoopSystem, axes: Axes, rows: Coordinates) -> Float[Ar
     if system.planar:
         square = axes.off_plane
         for chain in range(len(system.loops)):
-            product = planar_product(system, axes, chain, moving_rows(system, chain), rows)
+            product = planar_product(ChainSection.of(system, axes, chain), rows)
             turn, shift = planar_dyad.compose(product, planar_rest(axes, chain))
             # a turn changes four of the nine entries of a rotation matrix
             square = square + 2 * ((turn.real - 1) ** 2 + turn.imag**2) + shift.real**2 + shift.imag**2
@@ -206,15 +206,15 @@ def residual_norm(system: LoopSystem, axes: Axes, rows: Coordinates) -> Float[Ar
         lengths = [xp.sqrt(dot(end, end)) for end in ends]
         square = square + (lengths[0] - lengths[1]) ** 2
     for chain in system.sections.spherical:
-        moving = moving_rows(system, chain)
+        whole = ChainSection.of(system, axes, chain)
         end = _end(system, axes, chain, rows)
         square = square + dot(end, end)
         for column, unit in zip(axes.open_turn[chain].T, np.eye(3), strict=True):
-            left = displace(system, axes, chain, moving, rows, column[:, None], free=True) - unit[:, None]
+            left = displace(whole, rows, column[:, None], free=True) - unit[:, None]
             square = square + dot(left, left)
     return xp.sqrt(square)
 
 
-def _end(system: LoopSystem, axes: Axes, chain: int, x: Coordinates):
+def _end(system: LoopSystem, axes: AssembledAxes, chain: int, x: FormulaCoordinates):
     """Find where a chain ends, (3, poses)."""
-    return displace(system, axes, chain, moving_rows(system, chain), x, axes.open_shift[chain, :, None])
+    return displace(ChainSection.of(system, axes, chain), x, axes.open_shift[chain, :, None])

@@ -10,7 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float, Int
 
-from jaxkin.geometry.elementary_motions import Law, law_length, law_rate, law_turn
+from jaxkin.geometry.elementary_motions import FollowedLaw, law_length, law_rate, law_turn
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.patches import FollowedSpline
 from jaxkin.solve.system.chain_tables import LAWS, distinct_tables
@@ -35,7 +35,7 @@ class LawNumbers(NamedTuple):
 
     of_steps: Int[np.ndarray, "steps distinct"]
     """Number of the law of a step; -1 for none."""
-    laws: tuple[tuple[int, Law], ...]
+    laws: tuple[tuple[int, FollowedLaw], ...]
     """Number of the curve in `LoopSystem.curves`, and the law."""
 
 

@@ -10,10 +10,8 @@ from typing import NamedTuple
 
 import jax
 import jax.numpy as jnp
-import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin.geometry.patches import Followed
 from jaxkin.solve.closure.couplings import coupling_closure, scaled_couplings
 from jaxkin.solve.closure.loop_closure import LoopClosure
 from jaxkin.solve.closure.planar import Planar, planar_closure, planar_geometry
@@ -22,8 +20,6 @@ from jaxkin.solve.closure.spatial_geometry import Spatial, spatial_geometry
 from jaxkin.solve.system.joints import CouplingNumbers, Joints, scaled_frames
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, is_driven
-
-Given = Array | np.ndarray
 
 
 class Geometry(NamedTuple):
@@ -72,30 +68,21 @@ def closure(system: LoopSystem, geometry: Geometry, state: State) -> Closure:
     return Closure(residual, jacobian, merit, jnp.sqrt(square))
 
 
-def loop_geometry(
-    system: LoopSystem,
-    frames_1: tuple[Given, ...],
-    frames_2: tuple[Given, ...],
-    pitch: tuple[Given, ...],
-    couplings: tuple[CouplingNumbers, ...] = (),
-    curves: tuple[tuple[Followed | None, ...], ...] = (),
-    constant: bool = True,
-) -> tuple[Geometry, Float[Array, ""]]:
-    """Compute the constants of a loop system from the frames of the joints, and the characteristic length.
+def loop_geometry(system: LoopSystem, joints: Joints, constant: bool = True) -> tuple[Geometry, Float[Array, ""]]:
+    """Compute the constants of a loop system from the numbers of its joints, and the characteristic length.
 
-    Frames, pitches and curves have one entry a joint, in the unit of the mechanism; the constants are those of
-    `scaled_frames`, and so is `constant`.
+    The constants are those of `scaled_frames`, and so is `constant`.
     """
-    frames_1, frames_2, pitch = jax.tree.map(lambda leaf: jnp.asarray(leaf, float), (frames_1, frames_2, pitch))
+    frames_1, frames_2, pitch = jax.tree.map(lambda leaf: jnp.asarray(leaf, float), joints[:3])
     frames, length = map(jnp.asarray, scaled_frames(frames_1, frames_2, constant=constant))
     splines = tuple(
         jax.tree.map(lambda leaf: jnp.asarray(leaf, float), curve).over(length).spline(jnp)
-        for curve in (curve for own in curves for curve in own)
+        for curve in (curve for own in joints.curves for curve in own)
         if curve is not None
     )
     space = spatial_geometry(system, frames, jnp.stack(pitch) / length, splines)
     loops = planar_geometry(system, space) if system.planar else space
-    return Geometry(loops, scaled_couplings(system, couplings, length)), length
+    return Geometry(loops, scaled_couplings(system, joints.couplings, length)), length
 
 
 def scaled_geometry(
@@ -105,7 +92,7 @@ def scaled_geometry(
 
     The factor is 1 for angles and the characteristic length for lengths; see `scaled_frames` for `constant`.
     """
-    geometry, length = loop_geometry(system, *joints, constant=constant)
+    geometry, length = loop_geometry(system, joints, constant)
     return geometry, jnp.where(jnp.array(system.is_length, bool), length, 1.0)[:, None]
 
 

@@ -33,9 +33,6 @@ MAX_UNROLLED_SUM_TERMS = 32
 """Largest number of terms of a sum that is written out: compile time grows with the number."""
 
 
-Numbers = Array | np.ndarray
-
-
 class Planar(NamedTuple):
     """Constants of the loops in the plane, lengths divided by the characteristic length.
 
@@ -162,24 +159,29 @@ def planar_geometry(system: LoopSystem, space: Spatial) -> Planar:
     links = (jnp.concatenate([centre[:, 1:], arrival[:, None]], axis=1) - centre).swapaxes(1, 2)
     direction = jnp.einsum("di,kli->dlk", plane, axis) * (sign * jnp.asarray((1 - turning) * used)).T
 
-    off_plane = squared_off_plane(axis, turning, used_, normal, last[:, :3, :3], last[:, :3, 3])
+    off_plane = squared_off_plane(axis, turning, used_, normal, last)
     open_turn = jnp.einsum("i,lij,dj->dl", plane[0], last[:, :3, :3], plane * jnp.array([1.0, -1.0])[:, None])
     moved, jacobian = _by_terms(system, turns, links, direction, one_hot.swapaxes(0, 1), centre[:, 0])
     return Planar(sense, moved, jacobian, open_turn, off_plane)
 
 
 def squared_off_plane(
-    axis: Numbers, turning: Numbers, moves: Numbers, normal: Numbers, rotation: Numbers, shift: Numbers, xp: Any = jnp
+    axis: Array | np.ndarray,
+    turning: Array | np.ndarray,
+    moves: Array | np.ndarray,
+    normal: Array | np.ndarray,
+    left_open: Array | np.ndarray,
+    xp: Any = jnp,
 ) -> Any:
     """Compute the squared residual of planar loops out of their plane (Eq. 12), which no motion in the plane can close.
 
     `axis` (rows, loops, 3) are the axes of the elementary motions in the assembled pose: of those that `moves` counts,
-    the `turning` ones should be parallel to the `normal`, and the others perpendicular. `rotation` (loops, 3, 3) and
-    `shift` (loops, 3) are left open there. `xp` is jax.numpy or numpy.
+    the `turning` ones should be parallel to the `normal`, and the others perpendicular. `left_open` (loops, 4, 4) are
+    the displacements that are left open there. `xp` is jax.numpy or numpy.
     """
     tilt = xp.where(turning, xp.sum(xp.cross(axis, normal) ** 2, axis=-1), (axis @ normal) ** 2)
-    leaning = rotation @ normal - normal
-    return xp.sum(xp.where(moves, tilt, 0.0)) + xp.sum(leaning**2) + xp.sum((shift @ normal) ** 2)
+    leaning = left_open[:, :3, :3] @ normal - normal
+    return xp.sum(xp.where(moves, tilt, 0.0)) + xp.sum(leaning**2) + xp.sum((left_open[:, :3, 3] @ normal) ** 2)
 
 
 def _by_terms(

@@ -6,6 +6,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from jaxkin.solve.closure.closure import Closure
+from jaxkin.solve.continuation.fronts import Fronts
 from jaxkin.solve.correctors.levenberg_marquardt import damping_floor
 from jaxkin.solve.linear.blocks import solve_blocks
 from jaxkin.solve.system.equation_blocks import equation_blocks
@@ -35,17 +36,16 @@ def slopes_of_branch(
     system: LoopSystem,
     slope: Float[Array, "columns fronts"],
     ratio: Float[Array, "blocks fronts"],
-    before: State,
-    slope_before: Float[Array, "columns fronts"],
+    before: Fronts,
     state: State,
     moved: Float[Array, " fronts"],
 ) -> Float[Array, "columns fronts"]:
     """Replace the slopes of least norm at the ends of steps that are singular, by those of the parabola of the step.
 
     Where two branches cross, the slope of least norm is that of neither, and predictions would lead to the other one.
-    The parabola, from the state and slope `before` to the `state` a distance `moved` away, has the slope of the branch
+    The parabola, from the fronts `before` the step to the `state` a distance `moved` away, has the slope of the branch
     to the square of its length. Free balls keep theirs.
     """
     singular = jnp.any(jnp.abs(ratio) < SINGULAR_RATIO, axis=0) & (moved != 0) & ~turning(system)
-    chord = (state.x - before.x) / jnp.where(moved != 0, moved, 1.0)
-    return jnp.where(singular, 2 * chord - slope_before, slope)
+    chord = (state.x - before.state.x) / jnp.where(moved != 0, moved, 1.0)
+    return jnp.where(singular, 2 * chord - before.slope, slope)

@@ -154,7 +154,7 @@ def substep(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, "
     final = good | uncertain
     stage = jnp.where(entered, FOLLOWING, jnp.where(lost | attempt.closing, BEYOND_LIMIT, fronts.stage))
     slope = input_slopes(system, found.state, found.closure, attempt.direction)
-    slope = slopes_of_branch(system, slope, ratio, fronts.state, fronts.slope, found.state, attempt.moved)
+    slope = slopes_of_branch(system, slope, ratio, fronts, found.state, attempt.moved)
     last = fronts.history
     width = jnp.where(attempt.moved != 0, attempt.moved, last.width)
     earlier_width = jnp.where(fronts.has_before, last.width, jnp.inf)

@@ -108,9 +108,11 @@ def levenberg_marquardt(
     eps = float(jnp.finfo(dtype).eps)
 
     def running(iterate: _Iterate) -> Array:
+        """Tell whether any pose has steps left and is not done."""
         return any_in_lockstep((iterate.count <= max_steps) & ~iterate.done)
 
     def step(iterate: _Iterate) -> _Iterate:
+        """Accept the trial of each pose where its merit is less, adapt the damping, and compute the next trial."""
         # the closure is evaluated at one place only: the compiled program holds its code once
         trial = closure(system, geometry, iterate.trial)
         first = iterate.count == 0

@@ -19,7 +19,7 @@ from jaxkin.solve.device import on_cpu
 from jaxkin.solve.execution.compiler import count_trace, jit_options
 from jaxkin.solve.execution.cores import available_cores, first_shard, is_monotonic, run_on_cores, shard_count
 from jaxkin.solve.options import CONTINUATION, SolverOptions
-from jaxkin.solve.range.solve_range import displacements, find_poses, shard
+from jaxkin.solve.range.solve_range import Shard, displacements, find_poses
 from jaxkin.solve.status import ClosureTolerance, Status
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
@@ -130,9 +130,9 @@ def _solve(
 ) -> tuple[Float[Array, "columns shard"], Outcome]:
     """Find poses and displacements of a shard: the program of a plain sweep."""
     count_trace()
-    poses = find_poses(system, options, joints, inputs, tolerance, shard_count, shard_start, follow_limits)
-    own = shard(inputs, shard_count, shard_start)
-    return displacements(system, joints, own, poses), Outcome(poses.status, poses.residual_norm)
+    part = Shard(shard_count, shard_start, follow_limits)
+    poses = find_poses(system, options, joints, inputs, tolerance, part)
+    return displacements(system, joints, part.of(inputs), poses), Outcome(poses.status, poses.residual_norm)
 
 
 def _in_order(inputs: np.ndarray, interpolate_from: int) -> tuple[np.ndarray, np.ndarray | None]:

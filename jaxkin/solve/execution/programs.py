@@ -6,7 +6,7 @@ Only the program of the displacements is differentiated. Where the numbers are k
 
 from __future__ import annotations
 
-from functools import cache, partial
+from functools import cache
 
 import jax
 import jax.numpy as jnp
@@ -15,10 +15,10 @@ from jax import lax
 from jaxtyping import Array, Bool, Float
 
 from jaxkin._traced import inside_trace, traced
-from jaxkin.solve.closed_form.assembled_axes import Axes, assembled_axes
+from jaxkin.solve.closed_form.assembled_axes import AssembledAxes, assembled_axes
 from jaxkin.solve.closed_form.formula_displacements import displacements_by_formula, joint_displacements
 from jaxkin.solve.closed_form.group_formulas import why_not_all
-from jaxkin.solve.closed_form.line import Line
+from jaxkin.solve.closed_form.input_line import InputLine
 from jaxkin.solve.closed_form.range_by_formula import (
     FormulaPoses,
     find_poses_and_line,
@@ -31,8 +31,8 @@ from jaxkin.solve.execution.compiler import count_trace, jit_options
 from jaxkin.solve.execution.design_batches import all_designs, by_formulas_in_groups
 from jaxkin.solve.execution.known_numbers import KnownRange, Outcome, solve_numbers
 from jaxkin.solve.options import CONTINUATION, SolverOptions
-from jaxkin.solve.range.poses import Poses
-from jaxkin.solve.range.solve_range import displacements, find_poses
+from jaxkin.solve.range.poses import RangePoses
+from jaxkin.solve.range.solve_range import Shard, displacements, find_poses
 from jaxkin.solve.status import ClosureTolerance, Status
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
@@ -44,8 +44,8 @@ def solve(
     joints: Joints,
     inputs: Float[Array | np.ndarray, "driven poses"],
     tolerance: ClosureTolerance,
-    axes: Axes | None = None,
-    line: Line | None = None,
+    axes: AssembledAxes | None = None,
+    line: InputLine | None = None,
 ) -> tuple[Float[Array, "columns poses"], Outcome]:
     """Find the displacements of all joints (columns, poses) for given inputs, with status and residual of each pose.
 
@@ -120,8 +120,8 @@ def _formulas_suffice(
     system: LoopSystem,
     options: SolverOptions,
     inputs: Float[Array | np.ndarray, "driven poses"],
-    axes: Axes | None,
-    line: Line | None,
+    axes: AssembledAxes | None,
+    line: InputLine | None,
 ) -> bool:
     """Tell whether a traced range is left to formulas alone: the geometry is traced, too, or has no limit in a turn.
 
@@ -132,7 +132,7 @@ def _formulas_suffice(
     return axes is None or (line is not None and bool(line.passes & line.begins))
 
 
-def _outcome(poses: Poses | FormulaPoses) -> Outcome:
+def _outcome(poses: RangePoses | FormulaPoses) -> Outcome:
     """Select status and residual norm."""
     return Outcome(poses.status, poses.residual_norm)
 
@@ -140,8 +140,8 @@ def _outcome(poses: Poses | FormulaPoses) -> Outcome:
 def _sweep_by_formula(
     system: LoopSystem,
     joints: Joints,
-    axes: Axes,
-    line: Line,
+    axes: AssembledAxes,
+    line: InputLine,
     inputs: Float[Array, "1 poses"],
     tolerance: ClosureTolerance,
 ) -> tuple[Float[Array, "columns poses"], Outcome, Bool[Array, ""]]:
@@ -154,15 +154,15 @@ def _sweep_by_formula(
 
 def _poses_by_formula(
     system: LoopSystem,
-    axes: Axes,
+    axes: AssembledAxes,
     inputs: Float[Array | np.ndarray, "1 poses"],
     tolerance: ClosureTolerance,
-    line: Line | None,
+    line: InputLine | None,
 ) -> FormulaPoses:
     """Find poses by formulas; where the geometry is traced, there is no `line` yet."""
     count_trace()
 
-    def find(axes: Axes, inputs: Array, tolerance: ClosureTolerance, line: Line | None) -> FormulaPoses:
+    def find(axes: AssembledAxes, inputs: Array, tolerance: ClosureTolerance, line: InputLine | None) -> FormulaPoses:
         if line is None:
             return find_poses_and_line(system, axes, inputs, tolerance)
         return find_poses_by_formula(system, axes, line, inputs, tolerance)
@@ -172,13 +172,17 @@ def _poses_by_formula(
 
 def _poses_of_all_designs(
     system: LoopSystem, options: SolverOptions, joints: Joints, inputs: Array, tolerance: ClosureTolerance
-) -> Poses:
+) -> RangePoses:
     """Find poses by the general solver; under `vmap` of joints those of all designs: see `all_designs`."""
     count_trace()
-    return all_designs(partial(find_poses, system, options), _all_closed)(joints, inputs, tolerance)
+
+    def find(joints: Joints, inputs: Array, tolerance: ClosureTolerance, follow_limits: Array | bool) -> RangePoses:
+        return find_poses(system, options, joints, inputs, tolerance, Shard(follow_limits=follow_limits))
+
+    return all_designs(find, _all_closed)(joints, inputs, tolerance)
 
 
-def _all_closed(poses: Poses) -> Array:
+def _all_closed(poses: RangePoses) -> Array:
     """Tell whether all poses of a design are CLOSED."""
     return jnp.all(poses.status == Status.CLOSED.value)
 

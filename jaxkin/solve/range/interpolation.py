@@ -29,7 +29,7 @@ from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.linear.blocks import inverse_jacobian
 from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.range.groups import LARGEST_GROUP, in_groups
-from jaxkin.solve.range.poses import Poses
+from jaxkin.solve.range.poses import RangePoses
 from jaxkin.solve.status import CLOSED_ROUNDINGS, default_tolerance, rounding_residual
 from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.state import State, assembled, difference, drive, rate, retract
@@ -79,9 +79,9 @@ def interpolate(
     problem: ContinuationProblem,
     samples: BranchSamples,
     values: Float[Array, " poses"],
-    correct: Callable[[Float[Array, " group"]], Poses],
+    correct: Callable[[Float[Array, " group"]], RangePoses],
     shard_count: int,
-) -> Poses:
+) -> RangePoses:
     """Find the poses for sorted values of a single input, which are one of `shard_count` shards of a range.
 
     `correct` finds poses, given their inputs, where the polynomials of their segment cannot be trusted.
@@ -92,7 +92,7 @@ def interpolate(
     length = max(2 ** (poses - 1).bit_length() // max_segments, 1)
     segments = _solved_segments(problem, samples, values, length)
 
-    def fill_segment(number: Array, filled: tuple[Poses, Array]) -> tuple[Poses, Array]:
+    def fill_segment(number: Array, filled: tuple[RangePoses, Array]) -> tuple[RangePoses, Array]:
         first = segments.first[number]
         here = lax.dynamic_slice_in_dim(values, first, length)
         t = (here - segments.middle[number]) / segments.half_width[number]
@@ -110,16 +110,16 @@ def interpolate(
             lambda: (predicted, evaluation.residual_norm, jnp.zeros_like(here)),
         )
         good = segments.trusted[number] & jnp.all((residual_norm <= closes) & (moved <= MAX_CHORD_STEP))
-        segment = Poses(state, jnp.full(length, segments.status[number]), residual_norm), jnp.full(length, ~good)
+        segment = RangePoses(state, jnp.full(length, segments.status[number]), residual_norm), jnp.full(length, ~good)
         return jax.tree.map(
             lambda whole, part: lax.dynamic_update_slice_in_dim(whole, part, first, axis=-1), filled, segment
         )
 
-    def corrected(group: tuple[Array, Poses, Array]) -> Poses:
+    def corrected(group: tuple[Array, RangePoses, Array]) -> RangePoses:
         here, found, wrong = group
         return lax.cond(any_in_lockstep(wrong), lambda: select_poses(wrong, correct(here), found), lambda: found)
 
-    start = Poses(assembled(system, poses, dtype), jnp.zeros(poses, jnp.int32), jnp.zeros(poses, dtype))
+    start = RangePoses(assembled(system, poses, dtype), jnp.zeros(poses, jnp.int32), jnp.zeros(poses, dtype))
     found, wrong = lax.fori_loop(0, len(segments.first), fill_segment, (start, jnp.zeros(poses, bool)))
     return lax.cond(
         any_in_lockstep(wrong), lambda: in_groups(corrected, (values, found, wrong), LARGEST_GROUP), lambda: found

@@ -10,7 +10,7 @@ from jaxkin.solve.closure.closure import closure, free_jacobian, scaled_geometry
 from jaxkin.solve.closure.joint_coordinates import as_state
 from jaxkin.solve.correctors.levenberg_marquardt import damping_floor
 from jaxkin.solve.linear.least_norm import MAX_ALWAYS_UNROLLED_ROWS, solve_least_norm
-from jaxkin.solve.range.poses import Poses
+from jaxkin.solve.range.poses import RangePoses
 from jaxkin.solve.range.solve_range import DERIVATIVE_GROUP, displacements
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
@@ -46,4 +46,4 @@ def known_displacements(
             state = retract(system, state, -delta)
     # few equations are solved by straight-line code, which needs no cache
     size = None if system.equations <= MAX_ALWAYS_UNROLLED_ROWS else DERIVATIVE_GROUP
-    return displacements(system, joints, inputs, Poses(state, status, jnp.zeros_like(state.x[0])), size)
+    return displacements(system, joints, inputs, RangePoses(state, status, jnp.zeros_like(state.x[0])), size)

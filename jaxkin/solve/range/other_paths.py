@@ -25,7 +25,7 @@ from jaxkin.solve.correctors.levenberg_marquardt import select_poses
 from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.device import group_for_device
 from jaxkin.solve.lockstep import any_in_lockstep
-from jaxkin.solve.range.poses import MAX_CORRECTION, Poses
+from jaxkin.solve.range.poses import MAX_CORRECTION, RangePoses
 from jaxkin.solve.status import Status
 from jaxkin.solve.system.state import State, difference
 
@@ -38,7 +38,7 @@ CELL = BEYOND_LIMIT_STEP
 class _Tried(NamedTuple):
     """What the paths followed so far have told."""
 
-    poses: Poses
+    poses: RangePoses
     tried: Bool[Array, " poses"]
     reached: Bool[Array, " poses"]
 
@@ -47,15 +47,15 @@ def try_other_paths(
     problem: ClosureProblem,
     at: Float[Array, " poses"],
     inputs: Float[Array, "driven poses"],
-    found: Poses,
-) -> Poses:
+    found: RangePoses,
+) -> RangePoses:
     """Replace poses that are not CLOSED by those to which other paths lead from the assembled pose.
 
     `at` are the distances of the poses along the curve, which grow; `inputs` are in radians and characteristic lengths.
     """
     leads = (jnp.arange(inputs.shape[0]) < inputs.shape[0] // 2)[:, None]
 
-    def followed(kind: Int[Array, ""], found: Poses) -> Poses:
+    def followed(kind: Int[Array, ""], found: RangePoses) -> RangePoses:
         failed = found.status != Status.CLOSED.value
         failed &= (kind == 0) | (found.status == Status.JUMPED.value)
         ahead = jnp.where(kind == 0, 0.5, jnp.where(leads, kind == 1, kind == 2))
@@ -69,9 +69,9 @@ def _follow(
     at: Float[Array, " poses"],
     inputs: Float[Array, "driven poses"],
     bends: Float[Array, "driven poses"],
-    found: Poses,
+    found: RangePoses,
     failed: Bool[Array, " poses"],
-) -> Poses:
+) -> RangePoses:
     """Replace `failed` poses by those to which the parabolas with control points `bends` lead."""
     poses = failed.shape[0]
     together = group_for_device(PATHS)
@@ -94,7 +94,7 @@ def _follow(
         which = jnp.argsort(~chosen)[:together]
         chosen, begun = chosen[which], jax.tree.map(lambda array: array[..., which], now.poses)
         ends = (jnp.where(chosen, given[:, which], 0.0) for given in (inputs, bends))
-        other = Poses(*reach(problem, *ends))
+        other = RangePoses(*reach(problem, *ends))
         reached = chosen & (other.status == Status.CLOSED.value)
         better = reached | chosen & (begun.status == Status.STALLED.value)
         poses = select_poses(better, other, begun)
@@ -108,7 +108,7 @@ def _follow(
     return lax.while_loop(lambda now: any_in_lockstep(left(now)), step, _Tried(found, nothing, nothing)).poses
 
 
-def _runs(found: Poses) -> Int[Array, " poses"]:
+def _runs(found: RangePoses) -> Int[Array, " poses"]:
     """Number the runs of neighbouring poses of one status, with states that are close to each other.
 
     A STALLED pose, whose state says nothing, is a run by itself.

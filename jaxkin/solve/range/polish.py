@@ -16,7 +16,7 @@ from jaxkin.solve.correctors.levenberg_marquardt import select_poses
 from jaxkin.solve.correctors.newton import newton
 from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.range.damped_poses import correct_damped
-from jaxkin.solve.range.poses import MAX_CORRECTION, Poses
+from jaxkin.solve.range.poses import MAX_CORRECTION, RangePoses
 from jaxkin.solve.status import (
     CLOSED_ROUNDINGS,
     ClosureTolerance,
@@ -34,7 +34,7 @@ def correct_poses(
     at: Float[Array, " poses"],
     inputs: Float[Array, "driven poses"],
     tolerance: ClosureTolerance,
-) -> Poses:
+) -> RangePoses:
     """Predict the poses at distances `at` along the path, set their inputs, and correct them to closure.
 
     `inputs` are in radians and characteristic lengths. Poses that Newton's method does not close are corrected by the
@@ -58,15 +58,15 @@ def correct_poses(
     near = difference(quick, state) <= MAX_CORRECTION
     closes = residual_norm <= jnp.maximum(rounding_residual(at.dtype, CLOSED_ROUNDINGS), tolerance.target_residual)
     good = closes & near & prediction.covered & may_close
-    found = Poses(quick, jnp.where(good, prediction.status, Status.STALLED.value), residual_norm)
+    found = RangePoses(quick, jnp.where(good, prediction.status, Status.STALLED.value), residual_norm)
 
-    def damped() -> Poses:
+    def damped() -> RangePoses:
         corrected, residual_norm, stationary = correct_damped(problem, at, state, ~good, tolerance.target_residual)
         near = difference(corrected, state) <= MAX_CORRECTION
         same_branch = near & (prediction.status == Status.CLOSED.value)
         status = classify(residual_norm, stationary, same_branch, tolerance.max_residual)
         status = jnp.where(prediction.covered, status, Status.STALLED.value)
-        return select_poses(good, found, Poses(corrected, status, residual_norm))
+        return select_poses(good, found, RangePoses(corrected, status, residual_norm))
 
     if problem.follow_limits is False:
         return found

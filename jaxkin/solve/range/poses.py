@@ -13,7 +13,7 @@ MAX_CORRECTION = 0.1
 trusted to be on the branch."""
 
 
-class Poses(NamedTuple):
+class RangePoses(NamedTuple):
     """The poses that were found, without derivatives."""
 
     state: State

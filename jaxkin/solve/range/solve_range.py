@@ -33,7 +33,7 @@ from jaxkin.solve.range.implicit_derivative import attach_derivative
 from jaxkin.solve.range.interpolation import SHARP_ROUNDINGS, interpolate
 from jaxkin.solve.range.other_paths import try_other_paths
 from jaxkin.solve.range.polish import correct_poses
-from jaxkin.solve.range.poses import MAX_CORRECTION, Poses
+from jaxkin.solve.range.poses import MAX_CORRECTION, RangePoses
 from jaxkin.solve.reference_methods.minimise import minimise_each
 from jaxkin.solve.status import (
     CLOSED_ROUNDINGS,
@@ -53,15 +53,30 @@ the cache while they are eliminated. A derivative of 10,000 poses of the paper's
 all poses at once; of a four-bar without formulas 6 and 10 ms."""
 
 
+class Shard(NamedTuple):
+    """Which poses of a range are to be found, by default all, and how far."""
+
+    count: int = 1
+    """Number of shards of the range, each as long."""
+    start: Int[Array, ""] | None = None
+    """Number of the first pose of the shard; None where the inputs are those of the shard alone."""
+    follow_limits: Bool[Array, ""] | bool = True
+    """Without it, poses behind a limit may be reported STALLED."""
+
+    def of(self, array: Shaped[Array, "*rows poses"]) -> Shaped[Array, "*rows shard"]:
+        """Cut the shard from an array."""
+        if self.start is None:
+            return array
+        return lax.dynamic_slice_in_dim(array, self.start, -(-array.shape[-1] // self.count), axis=-1)
+
+
 class _Range(NamedTuple):
     """A range to be solved, in radians and lengths over the characteristic length: see `find_poses`."""
 
     geometry: Geometry
     inputs: Float[Array, "driven poses"]
     tolerance: ClosureTolerance
-    shard_count: int
-    shard_start: Int[Array, ""] | None
-    follow_limits: Bool[Array, ""] | bool
+    part: Shard
 
 
 def find_poses(
@@ -70,40 +85,26 @@ def find_poses(
     joints: Joints,
     inputs: Float[Array, "driven poses"],
     tolerance: ClosureTolerance,
-    shard_count: int = 1,
-    shard_start: Int[Array, ""] | None = None,
-    follow_limits: Bool[Array, ""] | bool = True,
-) -> Poses:
-    """Find the poses of one shard of a range, for finite inputs, radians and lengths of the mechanism.
+    part: Shard,
+) -> RangePoses:
+    """Find the poses of a range, or of one shard of it, for finite inputs, radians and lengths of the mechanism.
 
-    The rows of `inputs` are in the order of `system.driven`. `inputs` is the shard (one of `shard_count`), or the whole
-    range if `shard_start` is given, which is the number of the first pose of the shard. With `follow_limits=False`,
-    poses behind a limit may be reported STALLED.
+    The rows of `inputs` are in the order of `system.driven`.
     """
     joints, inputs = lax.stop_gradient((joints, inputs))
     geometry, lengths = scaled_geometry(system, joints)
-    asked = _Range(geometry, inputs / driven(system, lengths), tolerance, shard_count, shard_start, follow_limits)
+    asked = _Range(geometry, inputs / driven(system, lengths), tolerance, part)
     poses = _by_method(system, options, asked)
     # correctors take what rounding leaves for closed, whatever tolerance was asked for
     rough = closes_before_limits(poses.status) & (poses.residual_norm > tolerance.max_residual)
     return poses._replace(status=jnp.where(rough, Status.STALLED.value, poses.status).astype(jnp.int32))
 
 
-def shard(
-    array: Shaped[Array, "*rows poses"], shard_count: int, shard_start: Int[Array, ""] | None
-) -> Shaped[Array, "*rows shard"]:
-    """Cut the shard that begins at pose `shard_start`, one of `shard_count`, from an array; all of it if that is
-    None."""
-    if shard_start is None:
-        return array
-    return lax.dynamic_slice_in_dim(array, shard_start, -(-array.shape[-1] // shard_count), axis=-1)
-
-
 def displacements(
     system: LoopSystem,
     joints: Joints,
     inputs: Float[Array, "driven poses"],
-    poses: Poses,
+    poses: RangePoses,
     size: int | None = DERIVATIVE_GROUP,
 ) -> Float[Array, "columns poses"]:
     """Compute the displacements of all joints in the poses found, as differentiable functions of joints and inputs.
@@ -113,7 +114,7 @@ def displacements(
     """
     geometry, lengths = scaled_geometry(system, joints)
 
-    def of_group(group: tuple[Array, Poses]) -> Float[Array, "columns group"]:
+    def of_group(group: tuple[Array, RangePoses]) -> Float[Array, "columns group"]:
         inputs, poses = group
         state = attach_derivative(system, geometry, inputs, poses.state, closes_before_limits(poses.status))
         rotations = ball_rotations(system, geometry, state)
@@ -124,57 +125,57 @@ def displacements(
     return unwrap_ball_angles(system, found) if system.balls else found
 
 
-def _by_method(system: LoopSystem, options: SolverOptions, asked: _Range) -> Poses:
+def _by_method(system: LoopSystem, options: SolverOptions, asked: _Range) -> RangePoses:
     """Find the poses by the method of the options."""
     geometry, tolerance = asked.geometry, asked.tolerance
-    inputs = shard(asked.inputs, asked.shard_count, asked.shard_start)
+    inputs = asked.part.of(asked.inputs)
     if not system.free:
         state = drive(system, assembled(system, inputs.shape[1], inputs.dtype), inputs)
         residual_norm = closure(system, geometry, state).residual_norm
         yes = jnp.ones_like(residual_norm, bool)
-        return Poses(state, classify(residual_norm, yes, yes, tolerance.max_residual), residual_norm)
+        return RangePoses(state, classify(residual_norm, yes, yes, tolerance.max_residual), residual_norm)
     if options.method != CONTINUATION:
         state, status, residual_norm = minimise_each(system, geometry, inputs, options.method, tolerance.max_residual)
-        return Poses(state, status, residual_norm)
+        return RangePoses(state, status, residual_norm)
     if len(system.driven) == 1:
         return _of_one_input(system, options, asked._replace(inputs=inputs))
     if system.driven:
         return _of_several_inputs(system, options, asked)
-    return Poses(*reach(ClosureProblem(system, geometry, options), inputs, inputs))
+    return RangePoses(*reach(ClosureProblem(system, geometry, options), inputs, inputs))
 
 
-def _of_one_input(system: LoopSystem, options: SolverOptions, asked: _Range) -> Poses:
+def _of_one_input(system: LoopSystem, options: SolverOptions, asked: _Range) -> RangePoses:
     """Find the poses of a single input: on CPUs by interpolation if there are at least `options.interpolate_from`."""
     values = asked.inputs[0]
 
     def identity(at: Float[Array, " fronts"]) -> tuple[Array, Array]:
         return at[None], jnp.ones_like(at)[None]
 
-    problem = ContinuationProblem(system, asked.geometry, options, identity, asked.follow_limits)
+    problem = ContinuationProblem(system, asked.geometry, options, identity, asked.part.follow_limits)
     samples = trace_branch(problem, values)
-    kept = samples.complete | asked.follow_limits
+    kept = samples.complete | asked.part.follow_limits
     values = jnp.where(kept, values, 0.0)
 
-    def corrected(values: Float[Array, " poses"]) -> Poses:
+    def corrected(values: Float[Array, " poses"]) -> RangePoses:
         return correct_poses(problem, samples, values, values[None], asked.tolerance)
 
     one_by_one = partial(in_groups, corrected, size=group_size(system))
     if len(values) < options.interpolate_from or not on_cpu():
         return _stalled_unless(kept, one_by_one(values))
-    return _stalled_unless(kept, interpolate(problem, samples, values, one_by_one, asked.shard_count))
+    return _stalled_unless(kept, interpolate(problem, samples, values, one_by_one, asked.part.count))
 
 
-def _of_several_inputs(system: LoopSystem, options: SolverOptions, asked: _Range) -> Poses:
+def _of_several_inputs(system: LoopSystem, options: SolverOptions, asked: _Range) -> RangePoses:
     """Find the poses of several inputs along a curve through all poses; in a straight line where that fails."""
-    geometry, follow_limits = asked.geometry, asked.follow_limits
+    geometry, follow_limits = asked.geometry, asked.part.follow_limits
     at, path = curve_through(asked.inputs)
-    at, inputs = (shard(array, asked.shard_count, asked.shard_start) for array in (at, asked.inputs))
+    at, inputs = (asked.part.of(array) for array in (at, asked.inputs))
     problem = ContinuationProblem(system, geometry, options, path, follow_limits)
     samples = trace_branch(problem, at)
     kept = samples.complete | follow_limits
     at, inputs = jnp.where(kept, at, 0.0), jnp.where(kept, inputs, 0.0)
 
-    def corrected(group: tuple[Array, Array]) -> Poses:
+    def corrected(group: tuple[Array, Array]) -> RangePoses:
         at, inputs = group
         return correct_poses(problem, samples, at, inputs, asked.tolerance)
 
@@ -189,7 +190,9 @@ def _of_several_inputs(system: LoopSystem, options: SolverOptions, asked: _Range
     return _stalled_unless(kept, found)
 
 
-def _of_neighbours(problem: ClosureProblem, samples: BranchSamples, one_by_one, group: tuple[Array, Array]) -> Poses:
+def _of_neighbours(
+    problem: ClosureProblem, samples: BranchSamples, one_by_one, group: tuple[Array, Array]
+) -> RangePoses:
     """Correct a group of neighbouring poses by chord steps, or by `one_by_one` if any of them does not close."""
     at, inputs = group
     prediction = predict(problem.system, samples, at)
@@ -201,10 +204,10 @@ def _of_neighbours(problem: ClosureProblem, samples: BranchSamples, one_by_one, 
     return lax.cond(
         any_in_lockstep(~good),
         lambda: one_by_one(group),
-        lambda: Poses(state, prediction.status, residual_norm),
+        lambda: RangePoses(state, prediction.status, residual_norm),
     )
 
 
-def _stalled_unless(kept: Bool[Array, ""], poses: Poses) -> Poses:
+def _stalled_unless(kept: Bool[Array, ""], poses: RangePoses) -> RangePoses:
     """Return the poses, with status STALLED if their range was not traced completely and limits are not followed."""
     return poses._replace(status=jnp.where(kept, poses.status, Status.STALLED.value))

@@ -14,14 +14,14 @@ from typing import NamedTuple, get_args
 
 import numpy as np
 
-from jaxkin.geometry.elementary_motions import Law
+from jaxkin.geometry.elementary_motions import FollowedLaw
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.solve.system.loop_system import LoopSystem
 
 AXES = np.stack([np.roll(np.eye(3), axis + 1, axis=0) for axis in range(3)])
 """For each axis a rotation matrix that carries z to it, a cyclic permutation of the axes: (3, 3, 3)."""
 
-LAWS: tuple[Law | None, ...] = (None, *get_args(Law))
+LAWS: tuple[FollowedLaw | None, ...] = (None, *get_args(FollowedLaw))
 """The functions of curves and surfaces that elementary motions follow (`ElementaryMotion.law`), by their numbers in the
 tables."""
 

@@ -12,7 +12,7 @@ import pytest
 import jaxkin as jk
 from jaxkin.mechanism.drive_plan import plan_drive
 from jaxkin.mechanism.known_motion import known_motion
-from jaxkin.solve.closed_form.assembled_axes import Axes
+from jaxkin.solve.closed_form.assembled_axes import AssembledAxes
 from jaxkin.solve.closed_form.known_poses_by_formula import known_displacements_by_formula
 from jaxkin.solve.range.known_poses import known_displacements
 from reference import catalogue
@@ -50,7 +50,7 @@ def test_ranges_that_may_hold_a_singular_pose_have_those_of_the_least_norm_solut
     in which its four hinges are in line."""
 
     def formulas(motion):
-        return [isinstance(numbers, Axes) for numbers in known_motion(motion)[1].numbers]
+        return [isinstance(numbers, AssembledAxes) for numbers in known_motion(motion)[1].numbers]
 
     turn, fourbar = np.linspace(0.0, 6.0, 7), planar_fourbar()
     assert formulas(fourbar.sweep({"A": turn})) == [True]

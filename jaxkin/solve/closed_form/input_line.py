@@ -14,10 +14,10 @@ from jaxtyping import Array, Bool, Float
 
 from jaxkin.geometry.trig import TURN
 from jaxkin.solve.closed_form.arithmetic import namespace
-from jaxkin.solve.closed_form.assembled_axes import Axes
+from jaxkin.solve.closed_form.assembled_axes import AssembledAxes
 from jaxkin.solve.closed_form.branch_certificate import (
     LEAST_DISCRIMINANT,
-    Rows,
+    NodeRows,
     certify_line,
     is_steep,
     surely_passes,
@@ -36,36 +36,34 @@ LEAST_ASSEMBLED_ROOT = 0.05
 """Least absolute value of the signed root in the assembled pose (such as the sine of an elbow) of loops that changed
 dimensions leave open there: nearer to zero, its sign does not tell which branch the pose is on."""
 
-Numbers = Array | np.ndarray
-
 
 class Windings(NamedTuple):
     """The unknown angles at the nodes, which are equally spaced: by them principal values get their full turns."""
 
-    begin: Float[Numbers, ""]
+    begin: Float[Array | np.ndarray, ""]
     """Input of the first node, radians or characteristic lengths."""
-    spacing: Float[Numbers, ""]
+    spacing: Float[Array | np.ndarray, ""]
     """Difference of the inputs of neighbouring nodes."""
-    angles: Rows
+    angles: NodeRows
     """Unknown angles at all nodes, radians, right to 0.08, unwrapped along the line."""
-    begun: Float[Numbers, " angles"]
+    begun: Float[Array | np.ndarray, " angles"]
     """The full turns in `angles` at the node of the assembled pose: multiples of 2 pi, radians."""
-    ended: Float[Numbers, " angles"]
+    ended: Float[Array | np.ndarray, " angles"]
     """The same where the assembled pose is again, a full turn of the input later; `begun` where that is a length."""
 
 
-class Line(NamedTuple):
+class InputLine(NamedTuple):
     """What discriminants and unknown angles at the nodes say of the motion along them."""
 
-    signs: Float[Numbers, "groups 1"]
+    signs: Float[Array | np.ndarray, "groups 1"]
     """The sign of the branch of every group."""
-    begins: Bool[Numbers, ""]
+    begins: Bool[Array | np.ndarray, ""]
     """Whether the assembled pose is without doubt on a branch that can be followed."""
-    passes: Bool[Numbers, ""]
+    passes: Bool[Array | np.ndarray, ""]
     """Whether the motion passes the whole line; where the geometry is traced, whether it does so by a wide margin."""
-    discriminants: Rows
+    discriminants: NodeRows
     """Of every group at every node."""
-    steep: Bool[Numbers, " intervals"]
+    steep: Bool[Array | np.ndarray, " intervals"]
     """Intervals in which an angle turns too far to be unwrapped."""
     windings: Windings
 
@@ -73,12 +71,12 @@ class Line(NamedTuple):
 class PassedLine(NamedTuple):
     """What of a line is asked for by inputs up to which the motion passes it without doubt: see `passed_range`."""
 
-    signs: Float[Numbers, "groups 1"]
+    signs: Float[Array | np.ndarray, "groups 1"]
     """The sign of the branch of every group."""
     windings: Windings
 
 
-def passed_range(system: LoopSystem, line: Line) -> tuple[float, float]:
+def passed_range(system: LoopSystem, line: InputLine) -> tuple[float, float]:
     """Find the lowest and the highest input up to which the motion passes a line of known numbers without doubt.
 
     Radians or characteristic lengths; infinite where it passes the whole line, and (0, 0) where it does not begin.
@@ -93,7 +91,7 @@ def passed_range(system: LoopSystem, line: Line) -> tuple[float, float]:
     return float(lowest), float(begin + spacing * above)
 
 
-def full_turn(system: LoopSystem, axes: Axes) -> Line:
+def full_turn(system: LoopSystem, axes: AssembledAxes) -> InputLine:
     """Compute the line of an input that is an angle: from the assembled pose a full turn on."""
     return line_and_poses(system, axes, turn_nodes(), np.zeros(0))[0]
 
@@ -103,7 +101,7 @@ def turn_nodes() -> Float[np.ndarray, " nodes"]:
     return np.linspace(0.0, TURN, NODES)
 
 
-def nodes_to_either_side(farthest: Float[Numbers, ""] | float) -> Float[Numbers, " nodes"]:
+def nodes_to_either_side(farthest: Float[Array | np.ndarray, ""] | float) -> Float[Array | np.ndarray, " nodes"]:
     """Space nodes as far as the input `farthest` (radians or characteristic lengths) on either side."""
     return namespace(farthest).maximum(farthest, np.finfo(float).tiny) * np.linspace(-1.0, 1.0, NODES)
 
@@ -125,8 +123,11 @@ def unknown_angles(system: LoopSystem) -> list[int]:
 
 
 def line_and_poses(
-    system: LoopSystem, axes: Axes, nodes: Float[Numbers, " nodes"], values: Float[Numbers, " poses"]
-) -> tuple[Line, Solved]:
+    system: LoopSystem,
+    axes: AssembledAxes,
+    nodes: Float[Array | np.ndarray, " nodes"],
+    values: Float[Array | np.ndarray, " poses"],
+) -> tuple[InputLine, Solved]:
     """Compute the line of the nodes, and the poses of further inputs, in radians and characteristic lengths.
 
     Nodes and poses are solved together: a program holds the formulas once for both.
@@ -143,7 +144,13 @@ def line_and_poses(
     return _line(system, nodes, roots, signs, cut(0, NODES)), cut(NODES, None)
 
 
-def _line(system: LoopSystem, nodes: Float[Numbers, " nodes"], roots: Numbers, signs: Numbers, solved: Solved) -> Line:
+def _line(
+    system: LoopSystem,
+    nodes: Float[Array | np.ndarray, " nodes"],
+    roots: Array | np.ndarray,
+    signs: Array | np.ndarray,
+    solved: Solved,
+) -> InputLine:
     """Read the line from its nodes, which are solved, and from the signed roots in the assembled pose."""
     first, last = ends(system)
     xp = namespace(roots, nodes)
@@ -152,7 +159,7 @@ def _line(system: LoopSystem, nodes: Float[Numbers, " nodes"], roots: Numbers, s
     nearby, steep = unwrapped(turns), np.zeros(NODES - 1, bool)
     for turn in turns:
         steep = steep | is_steep(turn)
-    discriminants: Rows = solved.discriminants
+    discriminants: NodeRows = solved.discriminants
     if xp is np:
         discriminants, nearby = np.stack(discriminants), np.array(nearby).reshape(-1, NODES)
         passes = certify_line(discriminants, steep, first, last).passes
@@ -169,4 +176,4 @@ def _line(system: LoopSystem, nodes: Float[Numbers, " nodes"], roots: Numbers, s
         TURN * xp.round((xp.array([row[node] for row in nearby], float) - assembled) / TURN) for node in (first, last)
     )
     windings = Windings(nodes[0], nodes[1] - nodes[0], nearby, begun, ended)
-    return Line(signs, begins, passes, discriminants, steep, windings)
+    return InputLine(signs, begins, passes, discriminants, steep, windings)
