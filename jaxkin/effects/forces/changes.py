@@ -57,12 +57,12 @@ def changes(
     which those of equal loops share: the legs of a robot are compiled once.
     """
     if len(drive.loop_groups) < 2:
-        return _changes(drive, known, inputs, rates, along)
+        return _of_part(drive, known, inputs, rates, along)
     rows: dict[int, list[Array]] = {}
     moved: dict[str, ByCoordinate] = {}
     for part in _independent(drive, known):
         own = None if rates is None else (part.renamed(rates[0]), part.renamed(rates[1]))
-        found = _changes(part.drive, part.known, part.renamed(inputs), own, along)
+        found = _of_part(part.drive, part.known, part.renamed(inputs), own, along)
         of_part = [each for each in (found.displacements, found.velocity, found.acceleration) if each is not None]
         rows |= {joint: [each[place] for each in of_part] for place, joint in enumerate(part.joints)}
         for number, each in found.along.items():
@@ -71,11 +71,23 @@ def changes(
     return Changes(displacements, {name: moved[name] for name in inputs if name in moved}, *by_time)
 
 
+def _of_part(
+    drive: KnownDrive,
+    known: KnownMotion,
+    inputs: Mapping[str, Any],
+    rates: tuple[Inputs, Inputs] | None,
+    along: bool,
+) -> Changes:
+    """Compute what `changes` returns, for at most one loop group."""
+    # those of one input by time follow from those by the input: the program is the same
+    return _changes(drive, known, inputs, rates, along or (rates is not None and len(inputs) == 1))
+
+
 @partial(whole_program, static=(0, 4))
 def _changes(
     drive: KnownDrive, known: KnownMotion, inputs: Inputs, rates: tuple[Inputs, Inputs] | None, along: bool
 ) -> Changes:
-    """Compute what `changes` returns, for at most one loop group.
+    """Compute what `_of_part` returns, in one program.
 
     With u the one input and q what it moves, q' = dq/du u', and q'' is the derivative of dq/du along u', times u', plus
     dq/du u'': one pass yields all of them.
