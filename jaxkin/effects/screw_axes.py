@@ -64,10 +64,15 @@ def screw_axes(velocities: Rates, part: str) -> ScrewAxes:
 
     With the velocity v of the material point at the origin of the world and the angular velocity w, the axis passes
     through w x v / w^2, and the pitch is w . v / w^2. Works inside `jit`, `vmap` and `grad`. Raises ValueError for a
-    part that is not there.
+    part that is not there, and for accelerations and jerks.
     """
     if not isinstance(velocities, Rates):
         raise ValueError(f"screw axes are those of jk.velocities(motion, rates), got {type(velocities).__name__}")
+    if velocities.order != 1:
+        raise ValueError(
+            "screw axes are those of jk.velocities(motion, rates), got derivatives of order "
+            f"{velocities.order}: of accelerations and jerks there are none"
+        )
     omega, place = velocities.angular(part), velocities.motion.transforms[part]
     turns = jnp.sum(omega**2, axis=1, keepdims=True) > _rounding(velocities)[:, None] ** 2
     # poses without an axis are zeros here, since NaN would spoil the derivatives of all poses, and NaN at the end

@@ -244,3 +244,14 @@ def test_the_coupler_of_a_parallelogram_has_no_screw_axis():
     assert np.isnan(axes.point).all() and np.all(np.asarray(axes.angular_speed) == 0)
     assert "only slides or rests in 11 of 11 poses" in str(axes)
     np.testing.assert_allclose(jk.screw_axes(velocities, "rocker").angular_speed, 2.0, rtol=1e-12)
+
+
+def test_accelerations_have_no_screw_axes():
+    """Taken for velocities they would give axes, and wrong ones."""
+    hinge = jk.revolute("A", "g", "coupler", point=(0, 0, 0), axis=Z)
+    motion = jk.Mechanism.build(fixed=["g"], joints=[hinge]).sweep({"A": np.linspace(0.0, 1.0, 3)})
+    for order, rates in ((2, jk.accelerations), (3, jk.jerks)):
+        with pytest.raises(
+            ValueError, match=f"screw axes are those of jk.velocities.*got derivatives of order {order}"
+        ):
+            jk.screw_axes(rates(motion, {"A": 1.0}), "coupler")
