@@ -71,6 +71,8 @@ class Equilibrium:
 
     def __str__(self) -> str:
         poses = f"{self.inputs[0]:.4g} to {self.inputs[-1]:.4g}"
+        if unknown := int(np.isnan(self.forces).sum()):
+            poses += f"; at {unknown} of its {len(self.inputs)} poses, which are not closed, nothing is known"
         lines = [f"  everywhere from {low:.9g} to {high:.9g}, indifferent" for low, high in self.indifferent]
         lines += [f"  {value:.9g}, {words}" for value, (words, _) in zip(self.values, self._told(), strict=True)]
         if not lines:

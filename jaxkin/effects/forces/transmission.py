@@ -53,6 +53,8 @@ class Transmission:
     def __str__(self) -> str:
         angle = np.degrees(np.asarray(self.angle))
         lines = [f"Transmission from {self.input} to {self.output}, through {self.joint}"]
+        if unknown := int(np.isnan(angle).sum()):
+            lines.append(f"  not known at {unknown} of {len(angle)} poses")
         if np.isfinite(angle).any():
             ratio = np.asarray(self.ratio)
             lines += [

@@ -208,3 +208,14 @@ def test_loads_that_are_none_are_told(applied, told):
     own = jk.masses(pendulum(), given={"arm": jk.Mass(2.0, (0.3, 0.4, 0.0))})
     with pytest.raises(ValueError, match=told):
         jk.equilibrium(pendulum(), {"A": np.linspace(-3.0, 3.0, 25)}, own, applied=applied)
+
+
+def test_poses_of_which_nothing_is_known_are_told():
+    """A rocker asked over its full turn moves over a part of it only: of the rest no equilibrium is denied."""
+    mechanism = planar_fourbar()
+    found = jk.equilibrium(mechanism, {"D": np.linspace(-3.0, 3.0, 9)}, applied=jk.joint_spring("D", 2.0, rest=9.0))
+    unknown = int(np.sum(~np.asarray(mechanism.sweep({"D": np.linspace(-3.0, 3.0, 9)}).closed)))
+    assert 0 < unknown < 9
+    assert str(found) == (
+        f"No equilibrium of D.phi from -3 to 3; at {unknown} of its 9 poses, which are not closed, nothing is known"
+    )

@@ -129,3 +129,8 @@ def test_links_that_lie_side_by_side():
     found = jk.transmission(mechanism.sweep({"ground-crank": TURN}), "ground-rocker")
     at = fourbar_angles(np.pi / 3 + TURN)
     np.testing.assert_allclose(np.sin(found.angle), np.abs(np.sin(at.rocker - at.coupler)), rtol=1e-6)
+
+
+def test_poses_of_which_nothing_is_known_are_told():
+    motion = fourbar().sweep({"A": np.array([0.0, np.nan, 0.5])})
+    assert "\n  not known at 1 of 3 poses\n" in str(jk.transmission(motion, "D"))
