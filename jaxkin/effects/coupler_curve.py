@@ -47,22 +47,26 @@ class CouplerCurve:
     """Empty for curves that are not plane: these do not cross themselves but by chance."""
     plane: Float[np.ndarray, "2 3"] | None
     """Axes of the plane of the curve; None where it has none."""
+    unit: str
+    """Unit of lengths."""
     rests: bool = False
     """Whether the point does not move, as that at the fixed pivot of a crank: it has no plane, cusps and crossings."""
 
     def __str__(self) -> str:
         """Describe the curve in a line, and each cusp and crossing in one."""
         about = f"Curve of a point of {self.part} over {self.drive}, {len(self.inputs)} poses"
+        if unknown := int(np.isnan(self.points).any(axis=1).sum()):
+            about += f", {unknown} of them not closed"
         if self.rests:
-            return f"{about}: the point rests at {_place(np.nanmean(self.points, axis=0))}"
+            return f"{about}: the point rests at {self._place(np.nanmean(self.points, axis=0))}"
         shape = "plane" if self.plane is not None else "not plane, so that crossings were not looked for"
         lines = [f"{about}, {shape}"]
         for cusp in self.cusps:
-            lines.append(f"  cusp at {cusp.input:.9g}: {_place(cusp.point)}")
+            lines.append(f"  cusp at {cusp.input:.9g}: {self._place(cusp.point)}")
         for crossing in self.crossings:
             one, other = crossing.inputs
             lines.append(
-                f"  crossing at {one:.9g} and {other:.9g}: {_place(crossing.point)}, "
+                f"  crossing at {one:.9g} and {other:.9g}: {self._place(crossing.point)}, "
                 f"{np.degrees(crossing.angle):.4g} deg"
             )
         if not self.cusps and not self.crossings:
@@ -80,12 +84,17 @@ class CouplerCurve:
         axes_of = self.plane if self.plane is not None else _axes(self.points)[0]
         figure = Figure(figsize=(6.4, 5.2), layout="constrained")
         axes = figure.add_subplot()
-        axes.plot(*(self.points @ axes_of.T).T, label=f"a point of {self.part}")
+        known = np.pad(np.isfinite(self.points).all(axis=1), 1)
+        alone = known[1:-1] & ~known[:-2] & ~known[2:]  # no line goes through these: they are dots
+        axes.plot(*(self.points @ axes_of.T).T, color="C0", label=f"a point of {self.part}")
+        axes.plot(*(self.points[alone] @ axes_of.T).T, "o", markersize=4, color="C0")
         for name, marker, found in (("cusp", "x", self.cusps), ("crossing", "o", self.crossings)):
             if found:
                 at = np.array([each.point for each in found]) @ axes_of.T
                 axes.plot(*at.T, marker, color="black", fillstyle="none", label=name)
-        axes.set(xlabel="in the plane of the curve, unit of the mechanism")
+        unit = f" ({self.unit})" if self.unit else ""
+        seen = "in the plane of the curve" if self.plane is not None else "seen along its least extent"
+        axes.set(xlabel=seen + unit)
         axes.set_aspect("equal")
         axes.grid(alpha=0.3)
         figure.legend(fontsize="small", frameon=False, loc="outside lower center", ncols=3)
@@ -94,6 +103,9 @@ class CouplerCurve:
     def save(self, path: str | Path) -> Path:
         """Write input and point of each pose as comma-separated values; returns the path."""
         return save_rows([self.drive, "x", "y", "z"], np.vstack([self.inputs, self.points.T]), Path(path))
+
+    def _place(self, point: Vector) -> str:
+        return f"({', '.join(f'{x:.6g}' for x in point)}) {self.unit}".rstrip()
 
 
 def coupler_curve(motion: Motion, part: str, point: Sequence[float | int] | np.ndarray | Array) -> CouplerCurve:
@@ -121,9 +133,9 @@ def coupler_curve(motion: Motion, part: str, point: Sequence[float | int] | np.n
         raise ValueError(f"a curve needs four closed poses, and this motion has {closed.sum()} of {len(closed)}")
     points = np.where(closed[:, None], np.asarray(motion.points(part, at), float), np.nan)
     evaluate = _evaluation(motion, drive, part, at)
-    extent = float(np.ptp(points[closed], axis=0).max())
+    extent, unit = float(np.ptp(points[closed], axis=0).max()), motion.mechanism.unit
     if extent <= RESTS * _largest_coordinate(motion, points[closed]):
-        return CouplerCurve(part, drive, inputs, points, (), (), None, rests=True)
+        return CouplerCurve(part, drive, inputs, points, (), (), None, unit, rests=True)
     axes, flat = _axes(points)
     # a motion may pass inputs several times, and rest at them; the curve is a function of the input
     own, first = np.unique(inputs[closed], return_index=True)
@@ -134,7 +146,7 @@ def coupler_curve(motion: Motion, part: str, point: Sequence[float | int] | np.n
         curve = range_of(evaluate, own, passed, extent)
     cusps = cusps_of(evaluate, curve)
     crossings = crossings_of(evaluate, axes, curve, extent, cusps) if flat else ()
-    return CouplerCurve(part, drive, inputs, points, cusps, crossings, axes if flat else None)
+    return CouplerCurve(part, drive, inputs, points, cusps, crossings, axes if flat else None, unit)
 
 
 def _evaluation(motion: Motion, drive: str, part: str, at: Vector) -> Evaluate:
@@ -169,7 +181,3 @@ def _axes(points: Float[np.ndarray, "poses 3"]) -> tuple[Float[np.ndarray, "2 3"
     if flat and (across := np.abs(directions[2])).max() > 1 - FLAT:
         return np.delete(np.eye(3), int(across.argmax()), axis=0), flat
     return directions[:2], flat
-
-
-def _place(point: Vector) -> str:
-    return "(" + ", ".join(f"{x:.6g}" for x in point) + ")"

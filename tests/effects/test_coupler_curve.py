@@ -3,6 +3,8 @@
 Tolerance: 1e-10 of the drive, rounding of the poses over the slope of the curve.
 """
 
+from dataclasses import replace
+
 import jax
 import numpy as np
 import pytest
@@ -210,3 +212,21 @@ def test_what_makes_no_sense_is_refused(motion):
         jk.coupler_curve(motion.mechanism.sweep({"A": TURN[:3]}), "coupler", (0, 0, 0))
     with pytest.raises(ValueError, match="on the host"):
         jax.jit(lambda point: jk.coupler_curve(motion, "coupler", point).points)(np.zeros(3))
+
+
+def test_poses_that_are_not_closed_are_told_and_those_between_them_drawn(motion, tmp_path, monkeypatch):
+    inputs = TURN[:40].copy()
+    inputs[[1, 3]] = np.nan  # the pose between them has no line to it
+    figures = []
+    monkeypatch.setattr("jaxkin.effects.coupler_curve.save_figure", lambda figure, path: figures.append(figure) or path)
+    found = jk.coupler_curve(motion.mechanism.sweep({"A": inputs}), "crank", (3.0, 1.0, 0.0))
+    assert str(found).startswith("Curve of a point of crank over A.phi, 40 poses, 2 of them not closed, plane")
+    found.plot(tmp_path / "curve.png")
+    dots = figures[0].axes[0].lines[1].get_xydata()
+    np.testing.assert_allclose(dots, found.points[[0, 2], :2], atol=1e-12)
+
+
+def test_places_have_their_unit(motion):
+    mechanism = replace(motion.mechanism, unit="mm")
+    found = jk.coupler_curve(mechanism.sweep({"A": TURN[:5]}), "crank", (0.0, 0.0, 0.0))
+    assert str(found).endswith(") mm")
