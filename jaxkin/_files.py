@@ -65,5 +65,8 @@ def save_figure(figure: Figure, path: Path) -> Path:
     """
     with whole(path) as draft, catch_warnings():
         filterwarnings("ignore", "Glyph .* missing from font")
+        # the numbers along an axis follow from its size, and the layout makes room for those before it: without this
+        # pass labels of axes of one scale may be cut off
+        figure.draw_without_rendering()
         figure.savefig(draft, dpi=DPI, format=path.suffix.lstrip(".") or "png")
     return path

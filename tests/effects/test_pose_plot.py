@@ -5,7 +5,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from matplotlib.colors import to_hex
+from matplotlib.figure import Figure
 
+from jaxkin._files import save_figure
 from jaxkin.effects import pose_plot
 
 
@@ -53,3 +55,15 @@ def test_of_many_lines_the_largest_are_named_and_told_apart(drawn):
     assert len(looks) == pose_plot.NAMED + 1
     grey = [line for line in axes.lines if line.get_color() == "0.75"]
     assert len(grey) == 28 and all(line.get_zorder() < handles[0].get_zorder() for line in grey)
+
+
+def test_labels_are_not_cut_off(tmp_path):
+    """Three views of one scale, as of a swept volume: numbers along the first one need more room than at first."""
+    x, y, z = (0.656, 5.958), (-1.585, 2.494), (-0.930, 5.596)
+    figure = Figure(figsize=(11, 4.2), layout="constrained")
+    for number, (across, up) in enumerate(((x, y), (x, z), (y, z))):
+        axes = figure.add_subplot(1, 3, number + 1)
+        axes.set(xlim=across, ylim=up, xlabel="x (in)", ylabel="y (in)")
+        axes.set_aspect("equal")
+    save_figure(figure, tmp_path / "views.png")
+    assert min(axes.get_tightbbox().x0 for axes in figure.axes) >= 0
