@@ -119,7 +119,14 @@ class Workspace:
 def drawn(found: Workspace) -> WorkspaceMap:
     """Collect what is drawn of a workspace."""
     return WorkspaceMap(
-        found.inputs, found.part, found.status, found.reached, found.sigma_min, found.condition, found.points
+        found.inputs,
+        found.part,
+        found.status,
+        found.reached,
+        found.sigma_min,
+        found.condition,
+        found.points,
+        found.motion.mechanism.unit,
     )
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from jaxkin._files import save_figure
+from jaxkin.geometry.movements import is_length
 from jaxkin.solve.status import Status
 
 FLAT = 1e-9
@@ -31,6 +32,7 @@ class WorkspaceMap(NamedTuple):
     sigma_min: Float[np.ndarray, "first second"]
     condition: Float[np.ndarray, "first second"]
     points: Float[np.ndarray, "first second 3"]
+    unit: str
 
 
 def draw_workspace(
@@ -49,7 +51,7 @@ def draw_workspace(
 
     figure = Figure(figsize=(11, 5), layout="constrained")
     axes = figure.add_subplot(1, 2, 1)
-    (one, first), (other, second) = found.inputs.items()
+    first, second = found.inputs.values()
     handles = []
     for status, grey in GREYS.items():
         here = found.status == status.value
@@ -62,12 +64,15 @@ def draw_workspace(
     if np.isfinite(values).any():
         drawn = axes.pcolormesh(first, second, values.T, cmap="viridis", shading="nearest", vmin=0.0)
         figure.colorbar(drawn, ax=axes, label="sigma_min")
-    axes.set(xlabel=one, ylabel=other)
+    unit = f" ({found.unit})" if found.unit else ""
+    along = [name + (unit if is_length(name.rpartition(".")[2]) else " (rad)") for name in found.inputs]
+    axes.set(xlabel=along[0], ylabel=along[1])
     axes.set_title("inputs: how near the loops are to singular", fontsize="medium")
     if singular is not None:
         handles += axes.plot(*singular.T, ".", color=MARK, markersize=4, label="singular")
     if handles:
-        axes.legend(handles=handles, fontsize="small", loc="upper right")
+        # below the map, which it would cover
+        figure.legend(handles=handles, fontsize="small", frameon=False, loc="outside lower left", ncols=len(handles))
 
     points = found.points[found.reached]
     extent = np.ptp(points, axis=0) if len(points) else np.ones(3)
@@ -79,7 +84,7 @@ def draw_workspace(
         drawn = plane.scatter(points[:, a], points[:, b], c=found.condition[found.reached], s=6, vmin=0.0)
         if places is not None:
             plane.plot(places[:, a], places[:, b], ".", color=MARK, markersize=4)
-        plane.set(xlabel="xyz"[a], ylabel="xyz"[b], title=title)
+        plane.set(xlabel="xyz"[a] + unit, ylabel="xyz"[b] + unit, title=title)
         plane.set_aspect("equal")
         figure.colorbar(drawn, ax=plane, label="condition")
     else:
@@ -87,6 +92,6 @@ def draw_workspace(
         drawn = space.scatter(*points.T, c=found.condition[found.reached], s=6, vmin=0.0)
         if places is not None:
             space.plot(*places.T, ".", color=MARK, markersize=4)
-        space.set(xlabel="x", ylabel="y", title=title)
+        space.set(xlabel="x" + unit, ylabel="y" + unit, zlabel="z" + unit, title=title)
         figure.colorbar(drawn, ax=space, label="condition")
     return save_figure(figure, path)

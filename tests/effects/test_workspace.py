@@ -9,6 +9,7 @@ from scipy import ndimage
 
 import jaxkin as jk
 from jaxkin import Status
+from jaxkin.effects import workspace_plot
 from reference import planar
 from reference.catalogue import hexapod
 from reference.mechanisms import flat, planar_fourbar
@@ -199,3 +200,19 @@ def _drive(values, hold):
     """Two poses on the line from the assembled pose to singular inputs, the second one just before these."""
     ways = np.array([0.5, 1.0 - 1e-8])
     return {"leg 0": ways * values[0], "leg 1": ways * values[1], **{name: 0.0 * ways for name in hold}}
+
+
+def test_axes_of_the_map_have_units_and_no_legend_covers_it(tmp_path, monkeypatch):
+    figures = []
+    monkeypatch.setattr(workspace_plot, "save_figure", lambda figure, path: figures.append(figure) or path)
+    joints = [
+        jk.prismatic("lift", "base", "mast", axis=Z),
+        jk.revolute("turn", "mast", "arm", point=(0, 0, 0), axis=Z, limits=(-1, 0.5)),
+    ]
+    crane = jk.Mechanism.build(fixed=["base"], joints=joints, unit="cm")
+    found = jk.workspace(crane, {"lift": np.linspace(-1, 1, 3), "turn": np.linspace(-1, 1, 5)}, "arm", (2, 0, 0))
+    found.plot(tmp_path / "map.png")
+    plane, space = figures[0].axes[0], next(axes for axes in figures[0].axes if axes.name == "3d")
+    assert (plane.get_xlabel(), plane.get_ylabel()) == ("lift.z (cm)", "turn.phi (rad)")
+    assert [space.get_xlabel(), space.get_ylabel(), space.get_zlabel()] == ["x (cm)", "y (cm)", "z (cm)"]
+    assert plane.get_legend() is None and len(figures[0].legends) == 1
