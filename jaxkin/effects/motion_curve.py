@@ -32,6 +32,8 @@ LARGEST_CORRECTION = 0.25
 ACCURACY = 1e-13
 """Error of the arc length, radians and characteristic lengths, to which events are refined: below the rounding of the
 poses."""
+MOVES = 1e-9
+"""Entry of an idle motion of unit length above which it moves a coordinate: far above rounding."""
 RELATIVE = 1e-15
 """The same over the arc length: four roundings, the least that Brent's method takes."""
 
@@ -55,6 +57,8 @@ class MotionCurve:
         """Take the loops with the column of the drive, the columns at rest, and the number of idle freedoms."""
         self.loops, self.drive, self.held, self.idle = loops, drive, list(held), idle
         self.free = [k for k in range(len(loops.columns)) if k not in self.held]
+        self.spins: list[int] = []
+        """Columns that the idle motions move, such as those of the balls of a rod: known once the curve has begun."""
 
     def _freedoms(self, q: LoopCoordinates) -> tuple[Float[np.ndarray, "freedoms columns"], float]:
         """Compute a basis of the rates that keep the loops closed, and `CurvePose.sigma`.
@@ -83,18 +87,38 @@ class MotionCurve:
         # the motion of least norm, orthogonal to the idle ones, of which the drive has no part
         tangent = basis.T @ basis[:, self.drive]
         size = float(np.linalg.norm(tangent))
-        return None if size < 1e-6 else CurvePose(home, direction * tangent / size, sigma)
+        if size < 1e-6:
+            return None
+        idle = basis - np.outer(basis @ tangent, tangent) / size**2
+        self.spins = np.flatnonzero(np.abs(idle).max(axis=0) > MOVES).tolist() if self.idle else []
+        return CurvePose(home, direction * tangent / size, sigma)
+
+    def _idle_motions(self, q: Row) -> Float[np.ndarray, "idle columns"]:
+        """Compute a basis of the rates of `spins` that keep the loops closed, none where these are more than the idle
+        ones, as in a singular pose of the angles of a ball."""
+        if not self.spins:
+            return np.zeros((0, len(q)))
+        jacobian = self.loops.travel(q).jacobian[:, self.spins]
+        values, directions = np.linalg.svd(jacobian, full_matrices=True)[1:]
+        rank = int((values > self.loops.thresholds.rank * values.max(initial=0.0)).sum())
+        known = rank == len(self.spins) - self.idle
+        found = np.zeros((self.idle if known else 0, len(q)))
+        found[:, self.spins] = directions[rank:] if known else 0.0
+        return found
 
     def at(self, here: CurvePose, s: float) -> CurvePose | None:
         """Close the loops where the tangent leads after the arc length `s`; None where they do not close.
 
-        The tangent there is the projection of that `here` on the rates that keep the loops closed.
+        The tangent there is the projection of that `here` on the rates that keep the loops closed, without idle ones:
+        those would gather from step to step, until the drive seems to rest.
         """
         q, found = self.loops.closed(here.q + s * here.tangent, self.held)
         if not found.residual_norm <= self.loops.thresholds.residual:
             return None
         basis, sigma = self._freedoms(q)
         tangent = basis.T @ (basis @ here.tangent)
+        idle = self._idle_motions(q)
+        tangent -= idle.T @ (idle @ tangent)
         size = float(np.linalg.norm(tangent))
         return None if size < 0.5 else CurvePose(q, tangent / size, sigma)
 
