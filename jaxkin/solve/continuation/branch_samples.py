@@ -183,16 +183,21 @@ def _trusted_side(left: Sample, right: Sample, values: Float[Array, " poses"]) -
 
 
 def _wrapped(samples: BranchSamples, values: Float[Array, " poses"]) -> Float[Array, " poses"]:
-    """Wrap each value by multiples of 2 pi into the interval traced without a limit; keep it if that is impossible."""
+    """Wrap each value by multiples of 2 pi into the interval traced without a limit; keep it if that is impossible.
+
+    An interval of more than a full turn has other poses a turn farther, as where the input drives a screw: a value
+    beyond its limit is not reached a turn before it.
+    """
     followed = (samples.table[:, -1] == Status.CLOSED.value) & jnp.isfinite(samples.at)
     least = jnp.min(jnp.where(followed, samples.at, jnp.inf))
     most = jnp.max(jnp.where(followed, samples.at, -jnp.inf))
+    one_turn = most - least <= TURN + 2 * NEAR_LIMIT
     # the end of the range is not a limit if it was reached
     least = jnp.where(least <= samples.at[samples.first], -jnp.inf, least - NEAR_LIMIT)
     most = jnp.where(most >= samples.at[samples.last], jnp.inf, most + NEAR_LIMIT)
     down = values - TURN * jnp.ceil(jnp.maximum(values - most, 0.0) / TURN)
     back = down + TURN * jnp.ceil(jnp.maximum(least - down, 0.0) / TURN)
-    return jnp.where((back >= least) & (back <= most), back, values)
+    return jnp.where(one_turn & (back >= least) & (back <= most), back, values)
 
 
 def _weighted(system: LoopSystem, left: Sample, right: Sample, values: Float[Array, " poses"]) -> State:
