@@ -93,7 +93,7 @@ class MotionCurve:
         self.spins = np.flatnonzero(np.abs(idle).max(axis=0) > MOVES).tolist() if self.idle else []
         return CurvePose(home, direction * tangent / size, sigma)
 
-    def _idle_motions(self, q: Row) -> Float[np.ndarray, "idle columns"]:
+    def _idle_motions(self, q: LoopCoordinates) -> Float[np.ndarray, "idle columns"]:
         """Compute a basis of the rates of `spins` that keep the loops closed, none where these are more than the idle
         ones, as in a singular pose of the angles of a ball."""
         if not self.spins:
