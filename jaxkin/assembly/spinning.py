@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -35,7 +36,10 @@ MIN_ROUNDNESS = 0.84
 """Smallest ratio of least to greatest half width of a part that is round about an axis: a hexagon has 0.866, a square
 0.707."""
 MIN_BUSH = 0.95
-"""The same of a bush: round but for its tessellation."""
+"""The same of a bush, and of a ball in all directions: round but for its tessellation."""
+BALL_DIRECTIONS = np.array([each for each in product((-1.0, 0.0, 1.0), repeat=3) if any(each)])
+"""Directions in which a ball reaches equally far: those to the faces, edges and corners of a cube."""
+BALL_DIRECTIONS /= np.linalg.norm(BALL_DIRECTIONS, axis=1, keepdims=True)
 MAX_PLAY = 0.1
 """Difference of the radii of a bush and of the shaft that turns in it, over that of the shaft, at most."""
 TWIST_TOLERANCE = 1e-6
@@ -151,8 +155,9 @@ def _is_round(part: Part, spin: Spin) -> bool:
     If the part may slide across the axis, the outline need only be round about its own middle.
     """
     if spin.kind is JointKind.SPHERICAL:
-        away = np.linalg.norm(part.outermost - spin.frame[:3, 3], axis=1)
-        return bool(away.min() > MIN_BUSH * away.max())
+        # how far it reaches in each direction: the corners of a cube are equally far, and its faces are not
+        reach = ((part.outermost - spin.frame[:3, 3]) @ BALL_DIRECTIONS.T).max(axis=0)
+        return bool(reach.min() > MIN_BUSH * reach.max())
     outline = (part.outermost - spin.frame[:3, 3]) @ spin.frame[:3, :2]
     slides_across = MOVEMENTS[spin.movement].turns_and_slides == (1, 2)
     return roundness(outline, None if slides_across else np.zeros(2)) > MIN_ROUNDNESS

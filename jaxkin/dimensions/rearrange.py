@@ -22,6 +22,9 @@ from jaxkin.dimensions.feature_geometry import Between, between
 from jaxkin.dimensions.features import Feature, Quantity
 from jaxkin.dimensions.placement import TINY, PairEquations, residuals, solve_positions
 
+ROUNDINGS = 64
+"""Components of unit vectors that count as zero, in units of the spacing of numbers near 1: several products."""
+
 
 class Change(NamedTuple):
     """A length to be changed. Its new value is given separately (`targets`), so that a `Change` is static under jit."""
@@ -53,15 +56,32 @@ def arrange(xp, layout: Layout, original, guess, targets) -> tuple[Any, Any]:
     """
     origins = original[:, :3, 3]
     size = xp.sqrt(xp.sum((origins - origins.mean(axis=0)) ** 2)) + TINY
-    pairs = _pairs(xp, layout, original, guess, targets, size)
-    start = guess[:, :3, 3] / size
+    # In the axes of the first feature what its joints leave free is often one coordinate, which no equation moves by
+    # rounding then: a slide in a plane stays in it.
+    turn = guess[0, :3, :3] if xp is np else lax.stop_gradient(guess[0, :3, :3])
+    pairs = _turned(xp, turn, _pairs(xp, layout, original, guess, targets, size))
+    start = guess[:, :3, 3] @ turn / size
     positions = solve_positions(xp, pairs, start)
     # the norm of the residuals is least at these positions, so its derivative by them is zero
     rows, _ = residuals(xp, pairs, positions if xp is np else lax.stop_gradient(positions))
     misfit = xp.sqrt(xp.sum(rows**2) + xp.sum(pairs.angle_errors**2) + TINY)
-    moved = guess[:, :3, 3] + size * (positions - start)  # exactly zero for features that stay
+    moved = guess[:, :3, 3] + size * (positions - start) @ turn.T  # exactly zero for features that stay
     poses = xp.concatenate([guess[:, :3, :3], moved[:, :, None]], axis=2)
     return xp.concatenate([poses, guess[:, 3:]], axis=1), misfit
+
+
+def _turned(xp, turn, pairs: PairEquations) -> PairEquations:
+    """Refer equations to the axes in the columns of `turn`; components of rounding size become zero."""
+
+    def exact(rows):
+        small = xp.where(xp.abs(rows) < ROUNDINGS * float(np.finfo(rows.dtype).eps), rows, 0.0)
+        return rows - (small if xp is np else lax.stop_gradient(small))  # derivatives stay
+
+    return pairs._replace(
+        project=exact(turn.T @ pairs.project @ turn),
+        along=exact(pairs.along @ turn),
+        offset_vectors=exact(pairs.offset_vectors @ turn),
+    )
 
 
 class _Pair(NamedTuple):
