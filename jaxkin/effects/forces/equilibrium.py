@@ -213,7 +213,11 @@ def _range_and_held(drive: Mapping[Any, Any]) -> tuple[str, PerPose, dict[str, P
         )
     inputs = given.pop(key)
     if len(inputs) < 2 or not np.isfinite(inputs).all():
-        raise ValueError(f"the range of {key!r} must be two displacements or more, as np.linspace(0, 2 * np.pi, 73)")
+        got = f"{len(inputs)}" if np.isfinite(inputs).all() else "some that are not finite"
+        raise ValueError(
+            f"the range of {key!r} must be two displacements or more, all finite, as np.linspace(0, 2 * np.pi, 73), "
+            f"got {got}"
+        )
     return key, inputs, given
 
 

@@ -131,6 +131,8 @@ def spring(
     between those beside, and a damper that of the velocity, as beside.
     """
     what = f"the spring of {text(part1, 'a part of a spring')!r} and {text(part2, 'a part of a spring')!r}"
+    if part1 == part2:
+        raise ValueError(f"a spring acts between two parts, got {part1!r} twice: name the part of its other end")
     xp = jax.numpy if traced(point1, point2) else np
     points = xp.stack([_vectors(point, f"a point of {what}", one=True) for point in (point1, point2)])
     numbers = (_numbers(each, what) for each in (stiffness, length, damping))

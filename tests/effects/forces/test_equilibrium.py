@@ -186,8 +186,9 @@ def test_bad_ranges_are_refused():
     mechanism = planar_fourbar()
     with pytest.raises(ValueError, match="along one driven coordinate, got ranges of 2"):
         jk.equilibrium(mechanism, {"A": np.arange(3.0), "D": np.arange(3.0)})
-    with pytest.raises(ValueError, match="must be two displacements or more"):
-        jk.equilibrium(mechanism, {"A": np.zeros(1)})
+    for given, got in ((np.zeros(1), "got 1"), (np.array([0.0, np.nan, 1.0]), "got some that are not finite")):
+        with pytest.raises(ValueError, match=f"must be two displacements or more, all finite, .*{got}"):
+            jk.equilibrium(mechanism, {"A": given})
     with pytest.raises(ValueError, match="nothing acts"):
         jk.equilibrium(pendulum(), {"A": np.linspace(0, 1, 3)})
 
