@@ -52,7 +52,7 @@ class Bore:
     @property
     def is_half_open(self) -> bool:
         """Whether half of the way around the axis is open, as in a groove or a half-shell."""
-        return self.open_arc >= MIN_HALF_ARC
+        return bool(self.open_arc >= MIN_HALF_ARC)
 
     def on_axis_of(self, other: Bore, angle: float = NEAR_ANGLE, length: float = NEAR_LENGTH) -> bool:
         """Tell whether the axis is that of another bore, within `angle` (radians) and `length` (over the other's
