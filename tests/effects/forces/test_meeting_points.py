@@ -49,3 +49,8 @@ def test_a_damper_acts_against_the_velocity_also_where_its_ends_meet():
     np.testing.assert_allclose(force(ANGLES), 5.0 * 2.0 * np.cos(ANGLES / 2) ** 2, rtol=1e-9)
     slope = jax.jvp(force, (jnp.asarray(ANGLES),), (jnp.ones(len(ANGLES)),))[1]
     assert np.isfinite(slope).all()
+
+
+def test_a_spring_from_a_part_to_itself_is_refused():
+    with pytest.raises(ValueError, match="acts between two parts, got 'crank' twice"):
+        jk.spring("crank", (0, 0, 0), "crank", (1, 0, 0), 10.0)
