@@ -2,9 +2,8 @@
 
 Such a part can turn about an axis while all other parts rest, perhaps also slide along the axis or over a face across
 it, and can do nothing else; it carries no other part and constrains none. Its solid is round about that axis, or it is
-a loose ball, which turns about its middle. A lever
-at the end of a chain also turns alone, but is not round: that it has no function would be a guess, and so it would be
-for parts without solids.
+a loose ball, which turns about its middle. A lever at the end of a chain also turns alone, but is not round: that it
+has no function would be a guess, and so it would be for parts without solids.
 """
 
 from __future__ import annotations
@@ -16,6 +15,7 @@ from itertools import product
 from typing import TYPE_CHECKING
 
 import numpy as np
+from jaxtyping import Float
 
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.outline import roundness
@@ -52,9 +52,9 @@ class Spin:
 
     kind: JointKind
     movement: str
-    """Key of the movement of the lower pair: revolute, cylindrical or planar."""
+    """Key of the movement of the lower pair: revolute, cylindrical, planar or spherical."""
     frame: Transform
-    """Frame of that pair, z along the axis of rotation."""
+    """Frame of that pair, z along the axis of rotation; of a ball at its middle, with the axes of the world."""
     carrier: str = ""
     """The neighbour that the part stays on: relative to the carrier it has this motion only."""
 
@@ -100,12 +100,8 @@ def _spin(joints: Sequence[Joint], size: float) -> Spin | None:
     _, turns, mixes = np.linalg.svd(free[:, :3].T, full_matrices=True)
     count = int((turns > TWIST_TOLERANCE).sum())
     if count == len(free) == 3:
-        # of turns w about the point p the velocities at the centre are v = p x w
-        crosses = np.concatenate([np.cross(np.eye(3), w).T for w in free[:, :3]])
-        point, velocities = np.linalg.lstsq(crosses, free[:, 3:].ravel(), rcond=None)[0], free[:, 3:].ravel()
-        if np.abs(crosses @ point - velocities).max() > TWIST_TOLERANCE:
-            return None
-        return Spin(*LOWER_PAIRS[3, 0], frame(centre + size * point, np.array([0.0, 0.0, 1.0])))
+        point = _centre_of_turns(free)
+        return None if point is None else Spin(*LOWER_PAIRS[3, 0], frame(centre + size * point, np.eye(3)[2]))
     if count != 1:
         return None
     turn, slides = mixes[0] @ free, (mixes[1:] @ free)[:, 3:]
@@ -141,6 +137,16 @@ def _turns_on_a_ring(mechanism: Mechanism, joints: Sequence[Joint], part: str, s
         if long and fits and roundness(away[:, :2], np.zeros(2)) > MIN_BUSH:
             return True
     return False
+
+
+def _centre_of_turns(twists: Float[np.ndarray, "turns 6"]) -> Float[np.ndarray, "3"] | None:
+    """Find the point about which a part turns by all twists, from where these are taken; None where there is none.
+
+    The velocity of a turn w about the point p is v = p x w.
+    """
+    crosses, velocities = np.concatenate([np.cross(np.eye(3), w).T for w in twists[:, :3]]), twists[:, 3:].ravel()
+    point = np.linalg.lstsq(crosses, velocities, rcond=None)[0]
+    return point if np.abs(crosses @ point - velocities).max() <= TWIST_TOLERANCE else None
 
 
 def _cylinders(*parts: Part) -> list[Cylinder]:

@@ -39,9 +39,9 @@ from jaxkin.effects.forces.balance_equations import (
     hessian,
     stacked,
 )
-from jaxkin.effects.forces.joint_balance import JointBalance, Wrenches, joint_balances, norm_gradients, norm_hessians
+from jaxkin.effects.forces.joint_balance import JointBalance, joint_balances, norm_gradients, norm_hessians
 from jaxkin.effects.forces.places import Places
-from jaxkin.effects.forces.screws import Scale, Twist, cross
+from jaxkin.effects.forces.screws import Scale, Twist, Wrench, cross
 from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.joints.joint import Joint, JointCoordinate
@@ -111,7 +111,7 @@ def coupling_gradients(linkage: Linkage, displacements: Sequence[Array], size: A
 class Transmitted(NamedTuple):
     """What joints and couplings transmit."""
 
-    wrenches: tuple[Wrenches, ...]
+    wrenches: tuple[Wrench, ...]
     """Of each joint, by part 1 on part 2: all of it."""
     held: tuple[Float[Array, "_ poses"], ...]
     """For each joint the load in its coordinates that holds freedoms which nothing drives, over the size for angles."""
@@ -123,7 +123,7 @@ def solve(
     linkage: Linkage,
     found: Balance,
     driven: Sequence[JointCoordinate],
-    acting: dict[str, Wrenches],
+    acting: dict[str, Wrench],
     loaded: dict[JointCoordinate, Float[Array, " poses"]],
 ) -> Transmitted:
     """Solve the balance of all parts for what the joints transmit, of least norm.
@@ -142,7 +142,7 @@ def _solve(
     linkage: Linkage,
     driven: Sequence[JointCoordinate],
     found: Balance,
-    acting: dict[str, Wrenches],
+    acting: dict[str, Wrench],
     loaded: dict[JointCoordinate, Float[Array, " poses"]],
 ) -> Transmitted:
     """Solve the balance for one group of poses: see `solve`."""
@@ -162,7 +162,7 @@ def _solve(
     wrenches = [carried_by.get(number, jnp.zeros((6, poses))) for number in range(len(linkage.joints))]
     strengths = [none] * len(ties)
     for loops in balanced_loops(linkage):
-        of_joints, of_couplings = _solve_loops(loops, found.arms, joints, wrenches, loads, ties, poses)
+        of_joints, of_couplings = _solve_loops(loops, joints, wrenches, loads, ties)
         for number, wrench in zip(loops.joints, of_joints, strict=True):
             wrenches[number] = wrench
         for number, strength in zip(loops.couplings, of_couplings, strict=True):
@@ -180,13 +180,11 @@ def _solve(
 
 def _solve_loops(
     loops: BalancedLoops,
-    every_arm: Sequence[Float[Array, "3 poses"]],
     every: Sequence[JointBalance],
-    carried: Sequence[Wrenches],
+    carried: Sequence[Wrench],
     every_load: Sequence[Float[Array, "free poses"]],
     every_tie: Sequence[Sequence[Float[Array, "free poses"]]],
-    poses: int,
-) -> tuple[list[Wrenches], list[Float[Array, " poses"]]]:
+) -> tuple[list[Wrench], list[Float[Array, " poses"]]]:
     """Solve the balance of some loops for the wrenches of their joints and the forces of their couplings.
 
     What is given is that of all joints and couplings: `carried` are the wrenches w_0.
@@ -196,10 +194,11 @@ def _solve_loops(
     ties = [[every_tie[coupling][number] for number in loops.joints] for coupling in loops.couplings]
     if not (loops.chords or ties):
         return begun, []
+    poses = joints[0].arm.shape[1]
     system = equations(loops, joints, ties, poses)
     load = stacked([joint.scaled(own) for joint, own in zip(joints, loads, strict=True)], poses)
     right = load - stacked([joint.scaled(joint.along(w)) for joint, w in zip(joints, begun, strict=True)], poses)
-    arms = jnp.stack([every_arm[number] for number in loops.joints], axis=1)
+    arms = jnp.stack([joint.arm for joint in joints], axis=1)
     by_wrenches = norm_gradients(arms, jnp.stack(begun, axis=1))
     by_chords = column_sums(system.chords, load) - gradient_by_chords(loops, by_wrenches)
     slope = jnp.concatenate([by_chords, column_sums(system.couplings, right)])
@@ -213,7 +212,7 @@ def _solve_loops(
     return found, list(z[count:])
 
 
-def tree_wrenches(linkage: Linkage, acting: dict[str, Any], poses: int) -> dict[int, Wrenches]:
+def tree_wrenches(linkage: Linkage, acting: dict[str, Any], poses: int) -> dict[int, Wrench]:
     """Compute the wrench of each joint of the tree, by part 1 on part 2, that balances all that acts behind it: w_0."""
     none = jnp.zeros((6, poses))
     behind = {part: acting.get(part, none) for part, *_ in linkage.structure.tree}

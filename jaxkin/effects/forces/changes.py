@@ -57,37 +57,26 @@ def changes(
     which those of equal loops share: the legs of a robot are compiled once.
     """
     if len(drive.loop_groups) < 2:
-        return _of_part(drive, known, inputs, rates, along)
+        # those of one input by time follow from those by the input: the program is the same
+        return _changes(drive, known, inputs, rates, along or (rates is not None and len(inputs) == 1))
     rows: dict[int, list[Array]] = {}
     moved: dict[str, ByCoordinate] = {}
-    for part in _independent(drive, known):
-        own = None if rates is None else (part.renamed(rates[0]), part.renamed(rates[1]))
-        found = _of_part(part.drive, part.known, part.renamed(inputs), own, along)
-        of_part = [each for each in (found.displacements, found.velocity, found.acceleration) if each is not None]
-        rows |= {joint: [each[place] for each in of_part] for place, joint in enumerate(part.joints)}
+    for some in _independent(drive, known):
+        own = None if rates is None else (some.renamed(rates[0]), some.renamed(rates[1]))
+        found = changes(some.drive, some.known, some.renamed(inputs), own, along)
+        by_order = [each for each in (found.displacements, found.velocity, found.acceleration) if each is not None]
+        rows |= {joint: [each[place] for each in by_order] for place, joint in enumerate(some.joints)}
         for number, each in found.along.items():
-            moved[part.names[int(number)]] = {(part.joints[joint], k): row for (joint, k), row in each.items()}
+            moved[some.names[int(number)]] = {(some.joints[joint], k): row for (joint, k), row in each.items()}
     displacements, *by_time = (tuple(each) for each in zip(*(rows[joint] for joint in sorted(rows)), strict=True))
     return Changes(displacements, {name: moved[name] for name in inputs if name in moved}, *by_time)
-
-
-def _of_part(
-    drive: KnownDrive,
-    known: KnownMotion,
-    inputs: Mapping[str, Any],
-    rates: tuple[Inputs, Inputs] | None,
-    along: bool,
-) -> Changes:
-    """Compute what `changes` returns, for at most one loop group."""
-    # those of one input by time follow from those by the input: the program is the same
-    return _changes(drive, known, inputs, rates, along or (rates is not None and len(inputs) == 1))
 
 
 @partial(whole_program, static=(0, 4))
 def _changes(
     drive: KnownDrive, known: KnownMotion, inputs: Inputs, rates: tuple[Inputs, Inputs] | None, along: bool
 ) -> Changes:
-    """Compute what `_of_part` returns, in one program.
+    """Compute what `changes` returns for at most one loop group, in one program.
 
     With u the one input and q what it moves, q' = dq/du u', and q'' is the derivative of dq/du along u', times u', plus
     dq/du u'': one pass yields all of them.
@@ -127,7 +116,7 @@ def _changes(
     return Changes(here, each, by_joint(velocity, here), by_joint(acceleration, here))
 
 
-class IndependentPart(NamedTuple):
+class IndependentJoints(NamedTuple):
     """Joints of a motion that move by inputs of their own, numbered from 0, as inputs are."""
 
     drive: KnownDrive
@@ -142,8 +131,8 @@ class IndependentPart(NamedTuple):
         return {str(number): inputs[name] for number, name in enumerate(self.names)}
 
 
-def _independent(drive: KnownDrive, known: KnownMotion) -> list[IndependentPart]:
-    """Cut a motion into parts that do not depend on each other: each loop group, and all joints in none."""
+def _independent(drive: KnownDrive, known: KnownMotion) -> list[IndependentJoints]:
+    """Sort joints by what they depend on: those of each loop group, and all in none."""
     groups = [
         (tuple(sorted({joint for joint, _ in each.columns})), each, own)
         for each, own in zip(drive.loop_groups, known.numbers, strict=True)
@@ -163,7 +152,7 @@ def _independent(drive: KnownDrive, known: KnownMotion) -> list[IndependentPart]
             loops, own = (one._replace(columns=columns, inputs=inputs),), own._replace(numbers=(numbers,))
         places = tuple((str(place), number[joint], k) for place, (_, joint, k) in enumerate(driven))
         freedoms = tuple(drive.freedoms[joint] for joint in joints)
-        found.append(IndependentPart(KnownDrive(freedoms, places, loops, drive.unit), own, joints, names))
+        found.append(IndependentJoints(KnownDrive(freedoms, places, loops, drive.unit), own, joints, names))
     return found
 
 

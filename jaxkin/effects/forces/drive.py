@@ -34,7 +34,8 @@ from jaxkin.effects.forces.masses import Masses
 from jaxkin.effects.forces.moving_parts import MovingParts
 from jaxkin.effects.forces.pose_groups import by_groups
 from jaxkin.effects.forces.potential import CarriedWeights, potential, weights_along_tree
-from jaxkin.effects.forces.wrenches import Loads, Wrench, acting_on, loads, metres_of, units_of
+from jaxkin.effects.forces.screws import Wrench
+from jaxkin.effects.forces.wrenches import Loads, acting_on, loads, metres_of, units_of
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.units import METRES
 from jaxkin.joints.joint import JointCoordinate

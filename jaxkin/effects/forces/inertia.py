@@ -14,11 +14,8 @@ from jaxtyping import Array, Float
 
 from jaxkin.effects.forces.masses import Masses
 from jaxkin.effects.forces.moving_parts import MovingParts
-from jaxkin.effects.forces.screws import Scale, Twist, cross, turned, velocity_at, wrench_at
+from jaxkin.effects.forces.screws import Scale, Twist, Wrench, cross, turned, velocity_at, wrench_at
 from jaxkin.geometry.rigid import Rigid
-
-Wrench = Float[Array, "6 poses"]
-"""Torque over the size of the mechanism, then force: newtons."""
 
 
 def weights_and_inertia(moving: MovingParts, masses: Masses, gravity: Any, lever: Any) -> dict[str, Wrench]:

@@ -12,22 +12,21 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from jaxkin.effects.forces.screws import Twist, cross, velocity_at
+from jaxkin.effects.forces.screws import Twist, Wrench, cross, velocity_at
 from jaxkin.solve.linear.orthonormal_rows import orthonormal_rows
-
-Wrenches = Float[Array, "6 poses"]
-"""Torque over the size of the mechanism, then force: newtons. About the middle of the mechanism."""
 
 
 class JointBalance(NamedTuple):
     """What a joint lets through in each pose, about the middle of the mechanism."""
 
+    arm: Float[Array, "3 poses"]
+    """The point of the joint, from the middle over the size."""
     screws: Float[Array, "free 6 poses"]
     """S^T: unit twists of its free coordinates."""
     made_by: Float[Array, "free free poses"]
     """T, which makes them orthonormal at the point of the joint: T S^T = U^T."""
 
-    def along(self, wrench: Wrenches) -> Float[Array, "free poses"]:
+    def along(self, wrench: Wrench) -> Float[Array, "free poses"]:
         """Compute S^T w, the loads along the freedoms."""
         return jnp.sum(self.screws * wrench[None], axis=1)
 
@@ -42,7 +41,7 @@ def joint_balances(
 ) -> list[JointBalance]:
     """Select for each joint, whose point is at an arm, the `free` ones of the unit twists of all its coordinates."""
     poses = arms[0].shape[1]
-    found = [JointBalance(jnp.zeros((0, 6, poses)), jnp.zeros((0, 0, poses))) for _ in arms]
+    found = [JointBalance(arm, jnp.zeros((0, 6, poses)), jnp.zeros((0, 0, poses))) for arm in arms]
     counts = [len(own) for own in free]
     for count in sorted({*counts} - {0}):
         # at once: one by one, their operations are a long program
@@ -53,7 +52,7 @@ def joint_balances(
         rows = jnp.concatenate([screws[:3], velocity_at(screws, arm[:, None])])
         made_by = jax.vmap(lambda one: orthonormal_rows(one).made_by)(jnp.moveaxis(rows, (2, 1), (0, 1)))
         for place, number in enumerate(alike):
-            found[number] = JointBalance(screws[:, :, place].swapaxes(0, 1), made_by[place])
+            found[number] = found[number]._replace(screws=screws[:, :, place].swapaxes(0, 1), made_by=made_by[place])
     return found
 
 

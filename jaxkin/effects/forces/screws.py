@@ -18,6 +18,9 @@ from jaxkin.linkage.linkage import Linkage
 
 Twist = Float[Array, "6 poses"]
 """Angular velocity, then linear velocity over the size of the mechanism."""
+Wrench = Float[Array, "6 _"]
+"""Torque about the middle of the mechanism over its size, then force: newtons. The last axis is the poses, or one for
+all poses."""
 
 
 class Scale(NamedTuple):

@@ -17,17 +17,13 @@ from jaxkin.effects.forces.changes import Changes
 from jaxkin.effects.forces.given import Force, JointLoad, Spring, Torque
 from jaxkin.effects.forces.inertia import weights_and_inertia
 from jaxkin.effects.forces.moving_parts import MovingParts
-from jaxkin.effects.forces.screws import turned, velocity_at, wrench_at
+from jaxkin.effects.forces.screws import Wrench, turned, velocity_at, wrench_at
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.units import METRES
 from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.motion import Motion
 from jaxkin.solve.execution.compiler import whole_program
-
-Wrench = Float[Array, "6 _"]
-"""Torque over the size of the mechanism, then force: newtons. The last axis is the poses, or one for all poses."""
-
 
 MEETING = 0.6
 """Power of rounding: the ends of a spring meet within this of the size, 4e-10 in float64, above what poses are off."""
