@@ -51,10 +51,15 @@ from jaxkin.linkage.linkage import Linkage
 from jaxkin.solve.linear.constrained import column_sums, minimise_constrained
 from jaxkin.solve.range.groups import in_groups
 
-GROUP = 512
+LARGEST_GROUP = 512
 """Poses of a group, which is placed and solved before the next one: its matrices stay in the cache. Reactions in 10,000
 poses of a four-bar, without the derivatives of the motion, took 14 ms of a processor in groups of 128, 10 of 512, 12 of
 1,024, and 15 where all poses were placed before they were solved."""
+SMALLEST_GROUP = 64
+"""Operations on fewer poses take as long."""
+GROUP_ENTRIES = 2**17
+"""Entries of the Hessians of a group. The balance of 30 unknowns took 48 us a pose of a processor in groups of 500
+poses, 31 of 128 and 32 of 64."""
 
 
 class Balance(NamedTuple):
@@ -135,7 +140,13 @@ def solve(
     acting = {part: jnp.broadcast_to(wrench, (6, poses)) for part, wrench in acting.items()}
     loaded = {at: jnp.broadcast_to(load, (poses,)) for at, load in loaded.items()}
     given = found._replace(scale=None), acting, loaded
-    return in_groups(lambda group: _solve(linkage, driven, *group), given, GROUP)
+    return in_groups(lambda group: _solve(linkage, driven, *group), given, group_size(linkage))
+
+
+def group_size(linkage: Linkage) -> int:
+    """Return the number of poses that are balanced together: fewer, the more unknowns a loop group has."""
+    unknowns = max((6 * len(each.chords) + len(each.couplings) for each in balanced_loops(linkage)), default=0)
+    return max(SMALLEST_GROUP, min(LARGEST_GROUP, GROUP_ENTRIES // max(1, unknowns) ** 2))
 
 
 def _solve(

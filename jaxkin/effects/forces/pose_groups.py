@@ -9,13 +9,15 @@ from typing import Any
 import jax.numpy as jnp
 
 from jaxkin.effects.forces.acting import ActingNumbers
-from jaxkin.effects.forces.balance import GROUP
+from jaxkin.effects.forces.balance import LARGEST_GROUP
 from jaxkin.effects.forces.given import rows_per_pose
 from jaxkin.solve.range.groups import in_groups
 
 
-def by_groups(function: Callable[[Any, ActingNumbers], Any], given: Any, acting: ActingNumbers) -> Any:
-    """Apply `function(given, acting)` to groups of poses, and join what it returns.
+def by_groups(
+    function: Callable[[Any, ActingNumbers], Any], given: Any, acting: ActingNumbers, size: int = LARGEST_GROUP
+) -> Any:
+    """Apply `function(given, acting)` to groups of at most `size` poses, and join what it returns.
 
     `given`, what the function returns, and those numbers of `acting` that are given for each pose, are pytrees of
     arrays whose first axis is the poses.
@@ -27,4 +29,4 @@ def by_groups(function: Callable[[Any, ActingNumbers], Any], given: Any, acting:
         applied = tuple(replace(each, **rows) for each, rows in zip(acting.applied, own, strict=True))
         return function(given, acting._replace(applied=applied))
 
-    return in_groups(of_group, (given, loads), GROUP, axis=0)
+    return in_groups(of_group, (given, loads), size, axis=0)

@@ -25,7 +25,7 @@ from jaxkin.effects.forces.acting import (
     given_rates,
     loads_and_frictions,
 )
-from jaxkin.effects.forces.balance import balance, solve
+from jaxkin.effects.forces.balance import balance, group_size, solve
 from jaxkin.effects.forces.changes import ORDER, Changes, changes, unmoved
 from jaxkin.effects.forces.friction import with_friction
 from jaxkin.effects.forces.friction_result import Friction
@@ -227,7 +227,7 @@ def _without_friction(
         moving = MovingParts.of(linkage, found, chords=True)
         return _balanced(drive, linkage, status, moving, loads(linkage, drive.unit, acting, moving))
 
-    return by_groups(of_group, (status, found), acting)
+    return by_groups(of_group, (status, found), acting, group_size(linkage))
 
 
 @partial(whole_program, static=(0,))
