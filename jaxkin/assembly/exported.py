@@ -57,6 +57,8 @@ class Exported:
     """Names of the constraints that the file says are actuated, or "name.coordinate" of one of several."""
     couplings: tuple[Coupling, ...] = ()
     """Between coordinates of the constraints, by name; counted from where the file calls them zero."""
+    rounding: float = 0.0
+    """Angle by which directions of the file deviate by rounding, radians, as far as they show it."""
     system: str = "CAD system"
     """What the file is from, for messages: "CAD system", "robot file"."""
 

@@ -72,7 +72,8 @@ def read_exported(path: Path, root: Element, read_solids: Reader) -> tuple[tuple
         *joints_between(export.joints, where, metres, notes),
         *mates_between(export.mates, where, metres, size, notes),
     ]
-    return placed, unit, Exported(fixed, (*groups, *_rigid(export, first)), tuple(constraints), tuple(notes))
+    rigid = (*groups, *_rigid(export, first))
+    return placed, unit, Exported(fixed, rigid, tuple(constraints), tuple(notes), rounding=export.rounding)
 
 
 def _read_each(

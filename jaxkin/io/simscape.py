@@ -11,20 +11,11 @@ from xml.etree.ElementTree import Element
 import numpy as np
 
 from jaxkin.geometry.inertial import Inertial
+from jaxkin.io.export_units import KILOGRAMS_BY_NAME, METRES_BY_NAME, factor, unit_of
 from jaxkin.io.xml_tree import read_xml
 
-METRES_BY_NAME = {
-    "meter": 1.0, "m": 1.0, "centimeter": 0.01, "cm": 0.01, "millimeter": 0.001, "mm": 0.001,
-    "inch": 0.0254, "in": 0.0254, "foot": 0.3048, "ft": 0.3048,
-}  # fmt: skip
-"""Metres in one unit of length, by the names that exporters write."""
-
-KILOGRAMS = {"kilogram": 1.0, "kg": 1.0, "gram": 0.001, "g": 0.001, "lbm": 0.45359237, "tonne": 1000.0}
-"""Kilograms in one unit of mass."""
-
-
-ORTHOGONAL = 1e-6
-"""Largest entry by which rows of a rotation are not orthogonal unit vectors: exporters write nine digits or more."""
+ORTHOGONAL = 1e-5
+"""Largest entry by which rows of a rotation are not orthogonal unit vectors: those of six digits are not by 2e-6."""
 
 RELATIONS = ("Joints/*", "Constraints/*")
 """Where an assembly has its joints and mates."""
@@ -107,6 +98,8 @@ class Export:
     mates: tuple[ExportedMate, ...]
     notes: tuple[str, ...]
     """What is in the file and was not understood, one line each."""
+    rounding: float
+    """Largest entry by which rows of its rotations are not orthogonal unit vectors: about what the digits leave."""
 
 
 class _Above(NamedTuple):
@@ -143,18 +136,17 @@ class _Reader:
 
     def __init__(self, file: str, root: Element) -> None:
         self.file, self.notes = file, []
-        units = root.find("DataUnits")
-        self.metres = self._unit(units, "length", "meter", METRES_BY_NAME)
-        self.kilograms = self._unit(units, "mass", "kilogram", KILOGRAMS)
+        self.metres = self._metres(unit_of(root, "length", "meter"))
+        self.kilograms = self._kilograms(unit_of(root, "mass", "kilogram"))
         self.part_of = {part.get("uid"): part for part in root.iterfind("Parts/Part")}
         self.assembly_of = {one.get("uid"): one for one in root.iterfind("Assemblies/Assembly")}
-        self.root = ""
+        self.rounding = 0.0
+        self.uid_of: dict[tuple[str, ...], str] = {}
         self.placed: dict[tuple[str, ...], np.ndarray] = {(): np.eye(4)}
 
     def export(self, root: Element) -> Export:
         """Place all instances, then the joints of the root and of each sub-assembly where it is placed."""
-        tree, self.root = root.find("InstanceTree"), root.get("uid", "")
-        parts, assemblies = [], [((), root)]
+        tree, parts, assemblies = root.find("InstanceTree"), [], [((), root)]
         if tree is not None:
             for path, names, instance, fixed_in, body in self._instances(tree, _Above((), (), np.eye(4), (), None)):
                 uid = instance.get("entityUid")
@@ -164,10 +156,11 @@ class _Reader:
                     assemblies.append((path, self.assembly_of[uid]))
                 else:
                     self.notes.append(f"{'/'.join(names)}: no part or assembly {uid!r} in the file; left out")
+        self.uid_of = {path: assembly.get("uid", "") for path, assembly in assemblies}
         found = [one for path, assembly in assemblies for one in self._relations(assembly, path)]
         joints = tuple(one for one in found if isinstance(one, ExportedJoint))
         mates = tuple(one for one in found if isinstance(one, ExportedMate))
-        return Export(root.get("name", ""), tuple(parts), joints, mates, tuple(self.notes))
+        return Export(root.get("name", ""), tuple(parts), joints, mates, tuple(self.notes), self.rounding)
 
     def _instances(self, at: Element, above: _Above) -> Iterator[tuple]:
         """Yield (path, names, element, fixed in, body) of the instances inside an element, outer ones first.
@@ -204,7 +197,7 @@ class _Reader:
     def _inertial(self, part: Element, name: str) -> Inertial | None:
         """Read what a part weighs; None, and a note, for a mass below zero."""
         texts = [part.findtext(f"MassProperties/{each}") for each in ("Mass", "CenterOfMass", "Inertia")]
-        if None in texts:
+        if None in texts or self.kilograms is None:
             return None
         (mass,), centre, six = (self._numbers(text, n, name) for text, n in zip(texts, (1, 3, 6), strict=True))
         if mass < 0:
@@ -225,7 +218,9 @@ class _Reader:
             elif len(features) == 2 and features[0] and features[1]:
                 yield ExportedMate(name, one.tag, (features[0], features[1]))
             else:
-                self.notes.append(f"{one.tag} {name!r}: no two frames or features of instances of the file; left out")
+                several = f"it is of {len(features)} features, and only relations of two are kept"
+                why = several if len(features) > 2 else "no two frames or features of instances of the file"
+                self.notes.append(f"{one.tag} {name!r}: {why}; left out")
 
     def _side(self, frame: Element | None, above: tuple, name: str) -> ExportedSide | None:
         if frame is None or (path := self._path(frame, above)) not in self.placed:
@@ -250,20 +245,26 @@ class _Reader:
         transform = np.eye(4)
         if at is not None:
             rotation = self._numbers(at.findtext("Rotation"), 9, name).reshape(3, 3)
-            if np.abs(rotation @ rotation.T - np.eye(3)).max() > ORTHOGONAL or np.linalg.det(rotation) < 0:
+            rounding = float(np.abs(rotation @ rotation.T - np.eye(3)).max())
+            if rounding > ORTHOGONAL or np.linalg.det(rotation) < 0:
                 raise ValueError(
                     f"{self.file}: {name!r}: expected a rotation, nine numbers row by row, got {rotation.tolist()}; "
                     "parts that are mirrored or scaled have to be exported as parts of their own"
                 )
-            transform[:3, :3] = rotation
+            self.rounding = max(self.rounding, rounding)
+            left, _, right = np.linalg.svd(rotation)
+            transform[:3, :3] = left @ right  # the nearest rotation
             transform[:3, 3] = self._numbers(at.findtext("Translation"), 3, name) * self.metres
         return transform
 
     def _path(self, side: Element, above: tuple[str, ...]) -> tuple[str, ...]:
-        """Read the identifiers from the root to the instance that a side of a joint or mate is on; of the root itself
-        none."""
+        """Read the identifiers from the root to the instance that a side of a joint or mate is on.
+
+        What is on the assembly itself is written with the identifier of the root, or of the assembly.
+        """
         path = tuple(uid.text or "" for uid in side.iterfind("InstancePath/Uid"))
-        return above if path == (self.root,) and (*above, *path) not in self.placed else (*above, *path)
+        itself = path in ((self.uid_of[()],), (self.uid_of[above],)) and (*above, *path) not in self.placed
+        return above if itself else (*above, *path)
 
     def _numbers(self, text: str | None, count: int, name: str) -> np.ndarray:
         try:
@@ -274,11 +275,19 @@ class _Reader:
             raise ValueError(f"{self.file}: {name!r}: expected {count} finite numbers, got {text!r}")
         return numbers
 
-    def _unit(self, units: Element | None, what: str, usual: str, known: dict[str, float]) -> float:
-        name = usual if units is None else units.get(what, usual)
-        if name not in known:
-            raise ValueError(f"{self.file}: unit of {what} {name!r} is not known; expected one of {', '.join(known)}")
-        return known[name]
+    def _metres(self, unit: str) -> float:
+        metres = factor(unit, METRES_BY_NAME)
+        if metres is None:
+            expected = ", ".join(METRES_BY_NAME)
+            raise ValueError(f"{self.file}: unit of length {unit!r} is not known; expected one of {expected}")
+        return metres
+
+    def _kilograms(self, unit: str) -> float | None:
+        """Look up a unit of mass; None, and a note, for one that is not known."""
+        kilograms = factor(unit, KILOGRAMS_BY_NAME)
+        if kilograms is None:
+            self.notes.append(f"unit of mass {unit!r} is not known, and masses are not taken")
+        return kilograms
 
 
 def _true(instance: Element, attribute: str) -> bool:

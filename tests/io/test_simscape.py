@@ -136,3 +136,60 @@ def test_mirrored_and_scaled_instances_are_refused_by_name(tmp_path: Path, rotat
     place = f"<Transform><Rotation>{rotation}</Rotation><Translation>0 0 0</Translation></Transform>"
     with pytest.raises(ValueError, match=r"arm\.xml: 'b': expected a rotation"):
         read_export(written(tmp_path, instance("b", "P", place)))
+
+
+def with_units(folder: Path, units: str) -> Path:
+    weighs = "<Mass>3</Mass><CenterOfMass>1 0 0</CenterOfMass><Inertia>1 1 1 0 0 0</Inertia>"
+    path = written(folder, instance("b", "P", FRAME.format("80 0 0")), weighs=weighs)
+    path.write_text(path.read_text().replace('<DataUnits length="meter" mass="gram"/>', units))
+    return path
+
+
+@pytest.mark.parametrize(
+    ("units", "metres", "kilograms"),
+    [
+        ('<ModelUnits mass="kg" length="mm"/>', 0.08, 3.0),
+        ('<ModelUnits mass="kg" length="mm"/><DataUnits mass="gram" length="meter"/>', 80.0, 0.003),
+        ('<DataUnits mass="Pound" length="Inch"/>', 80 * 0.0254, 3 * 0.45359237),
+        ('<DataUnits mass="kilograms" length="Millimetres"/>', 0.08, 3.0),
+        ("", 80.0, 3.0),
+    ],
+)
+def test_numbers_are_in_the_units_of_the_models_where_the_file_has_no_others(
+    tmp_path: Path, units: str, metres: float, kilograms: float
+) -> None:
+    (part,) = read_export(with_units(tmp_path, units)).parts
+    assert part.transform[0, 3] == pytest.approx(metres)
+    assert part.inertial is not None and part.inertial.mass == pytest.approx(kilograms)
+
+
+def test_an_unknown_unit_of_mass_costs_the_masses_only(tmp_path: Path) -> None:
+    export = read_export(with_units(tmp_path, '<DataUnits mass="stone" length="mm"/>'))
+    assert export.parts[0].inertial is None
+    assert export.notes == ("unit of mass 'stone' is not known, and masses are not taken",)
+
+
+def test_rotations_of_six_digits_are_made_rotations(tmp_path: Path) -> None:
+    rounded = "0.260734 0.938210 0.227551 0.724896 -0.034590 -0.687989 -0.637608 0.344333 -0.689124"
+    place = f"<Transform><Rotation>{rounded}</Rotation><Translation>0 0 0</Translation></Transform>"
+    export = read_export(written(tmp_path, instance("b", "P", place)))
+    rotation = export.parts[0].transform[:3, :3]
+    np.testing.assert_allclose(rotation @ rotation.T, np.eye(3), atol=1e-15)
+    np.testing.assert_allclose(rotation.ravel(), np.array(rounded.split(), float), atol=2e-6)  # six digits
+    assert 1e-7 < export.rounding < 1e-5
+
+
+def test_what_is_on_an_assembly_itself_is_on_it_by_its_own_identifier(tmp_path: Path) -> None:
+    tree = instance("s", "A", FRAME.format("0 0 0"), instance("b", "P", FRAME.format("0 0 0")))
+    joint = f'<Revolute name="hinge">{side("BaseFrame", "A")}{side("FollowerFrame", "b")}</Revolute>'
+    export = read_export(written(tmp_path, tree, assemblies=f'<Assembly uid="A"><Joints>{joint}</Joints></Assembly>'))
+    assert [each.path for each in export.joints[0].sides] == [("s",), ("s", "b")]
+
+
+def test_mates_of_more_than_two_features_are_told_as_such(tmp_path: Path) -> None:
+    tree = instance("b", "P", FRAME.format("0 0 0"))
+    feature = '<ConstraintGeometry geomType="plane"><InstancePath><Uid>b</Uid></InstancePath></ConstraintGeometry>'
+    export = read_export(written(tmp_path, tree, f'<UnknownConstraint name="Width1">{3 * feature}</UnknownConstraint>'))
+    assert export.notes == (
+        "UnknownConstraint 'Width1': it is of 3 features, and only relations of two are kept; left out",
+    )
