@@ -23,6 +23,8 @@ from jaxkin.joints.combine import lower_pair
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.joints.joint import Joint, joint
 from jaxkin.joints.kinds import JointKind
+from jaxkin.joints.mates import ANGLE_KEPT
+from jaxkin.joints.pairs import universal
 from jaxkin.joints.regularise import Noise
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.coupled import counted_from, coupled
@@ -36,6 +38,9 @@ if TYPE_CHECKING:
 DIGITS = 1e-6
 """Radians, or lengths over the size of the assembly, within which axes of an export are parallel or coincide: exporters
 write nine decimals of a metre, which is 1e-7 of a part of ten millimetres, and directions that are rounded alike."""
+
+PLACES = 4.0
+"""Roundings that add up on the way to a direction: of two sub-assemblies, of a part in them, and of the direction."""
 
 
 def from_export(assembly: Assembly, exported: Exported, options: MechanismOptions) -> Mechanism:
@@ -63,10 +68,11 @@ def from_export(assembly: Assembly, exported: Exported, options: MechanismOption
     check_options(assembly.names, options)
     check_ignored((), options.ignore, [frozenset(each.parts) for each in exported.constraints])
     notes = [*exported.notes]
-    noise = Noise(DIGITS, DIGITS * size(assembly.parts))
+    digits = max(DIGITS, PLACES * exported.rounding)
+    noise = Noise(digits, digits * size(assembly.parts))
     groups = _groups(exported, options)
     constraints = [each for each in exported.constraints if not _replaced(each, options)]
-    while locked := _locked(assembly, options, groups, constraints, noise):
+    while locked := _locked(assembly, options, groups, constraints, noise, notes):
         groups += locked
     joints = _joints(assembly, options, groups, constraints, noise, notes, exported.motors)
     groups += rigid_subassemblies(assembly.parts, options, groups, [each.joint.parts for each in joints if each.joint])
@@ -153,13 +159,16 @@ def _locked(
     groups: Sequence[Inference],
     constraints: Sequence[Constraint],
     noise: Noise,
+    notes: list[str],
 ) -> list[Inference]:
-    """Find pairs of bodies that several constraints leave no freedom together."""
+    """Find pairs of bodies that several constraints leave no freedom together; features that do not meet are noted."""
     result = []
     for several in _between(assembly, options, groups, constraints):
         pair = lower_pair([each.chain for each in several], noise) if len(several) > 1 else None
         if pair is not None and pair.kind is JointKind.FIXED:
-            evidence = Evidence(EvidenceKind.EXPORT, (), f"{_told(several)} leave no freedom")
+            evidence = Evidence(
+                EvidenceKind.EXPORT, _apart(several, notes, noise), f"{_told(several)} leave no freedom"
+            )
             result.append(Inference(several[0].parts, evidence))
     return result
 
@@ -197,6 +206,8 @@ def _joints_of_two(
         evidence = _evidence(several, notes, noise)
         made = joint("-".join(parts), parts, pair.kind, (pair.movement,), [pair.frame], evidence=evidence)
         return [("-".join(parts), made)]
+    if whole and (cross := _cross(several, noise)) is not None:
+        return [(cross.name, replace(cross, evidence=_evidence(several, notes, noise)))]
     result = []
     for each in several:
         if each.kind is None:
@@ -212,18 +223,37 @@ def _joints_of_two(
     return result
 
 
+def _cross(several: Sequence[Constraint], noise: Noise) -> Joint | None:
+    """Make the universal joint that a ball and two lines amount to that stay perpendicular; None if there is none."""
+    for each in several:
+        rest = [other.chain for other in several if other is not each]
+        if not rest or each.kind is not None or tuple(each.chain.movements) != ANGLE_KEPT:
+            continue
+        axis1, axis2 = each.chain.frames[0, :3, 2], each.chain.frames[-1, :3, 2]
+        ball = lower_pair(rest, noise)
+        if ball is None or ball.kind is not JointKind.SPHERICAL or abs(float(axis1 @ axis2)) > noise.angle:
+            continue
+        axis2 = axis2 - (axis1 @ axis2) * axis1
+        return universal("-".join(each.parts), *each.parts, point=ball.frame[:3, 3], axis1=axis1, axis2=axis2)
+    return None
+
+
 def _evidence(several: Sequence[Constraint], notes: list[str], noise: Noise) -> Evidence:
-    """Tell what a joint is known from; axes of the two sides that do not meet are noted with their sizes."""
+    """Tell what a joint is known from."""
+    return Evidence(EvidenceKind.EXPORT, _apart(several, notes, noise), _told(several))
+
+
+def _apart(several: Sequence[Constraint], notes: list[str], noise: Noise) -> tuple[tuple[str, float], ...]:
+    """Measure how far axes and features of the two sides do not meet; where they do not, a note has the sizes."""
     offset, tilt = max(each.offset for each in several), max(each.tilt for each in several)
-    sizes: tuple[tuple[str, float], ...] = ()
-    if offset > noise.length or tilt > noise.angle:
-        sizes = (("offset", offset), ("tilt", tilt))
-        parts = " and ".join(map(repr, several[0].parts))
-        notes.append(
-            f"{_told(several)} between {parts}: its two sides are {offset:.2g} and {tilt:.2g} rad apart as exported; "
-            f"taken as it stands on {several[0].parts[0]!r}"
-        )
-    return Evidence(EvidenceKind.EXPORT, sizes, _told(several))
+    if offset <= noise.length and tilt <= noise.angle:
+        return ()
+    parts = " and ".join(map(repr, several[0].parts))
+    notes.append(
+        f"{_told(several)} between {parts}: its two sides are {offset:.2g} and {tilt:.2g} rad apart as exported; "
+        f"taken as it stands on {several[0].parts[0]!r}"
+    )
+    return (("offset", offset), ("tilt", tilt))
 
 
 def _told(several: Sequence[Constraint]) -> str:

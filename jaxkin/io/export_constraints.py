@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from unicodedata import combining, normalize
 
 import numpy as np
 
 from jaxkin.assembly.exported import Constraint
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.pose import Transform
-from jaxkin.io.export_joints import FREE, joint_of_kind
+from jaxkin.io.export_joints import joint_of_kind
 from jaxkin.io.names import cleaned
 from jaxkin.io.simscape import Export, ExportedJoint, ExportedMate
 from jaxkin.joints.combine import LOWER_PAIRS, Chain
@@ -22,8 +23,11 @@ Paths = Mapping[tuple[str, ...], str]
 LOCKS = ("weld", "lock", "fixed")
 """Mates that leave no freedom."""
 
-LIMIT = "limit"
-"""How the names of mates begin that allow a range of distances or angles, which the export does not say."""
+LIMITS = ("limit", "grenz", "\u9650")
+"""What the names of mates have, in the languages of the system and without accents, that allow a range of distances or
+angles, which the export does not say: limit, limite, l\u00edmite, Grenze, \u9650\u5236."""
+RANGES = ("distance", "angle")
+"""Mates that may be such a range."""
 
 UNKNOWN = "UnknownConstraint"
 """Mates that the exporter has no name for: gears, locks, slots. Their own names may tell."""
@@ -81,19 +85,15 @@ def joints_between(
         known = joint_of_kind(each.kind, base, follower)
         if parts is None or known is None:
             paths = each.sides[0].path, each.sides[1].path
-            why = where.why_not(paths) if parts is None else _unknown(each.kind)
+            why = where.why_not(paths) if parts is None else "its kind is not known, or not between such frames"
             notes.append(f"{text}: {why}; left out")
             continue
-        kind, chain = known
-        offset, tilt = _apart(chain.movements[0], base, follower) if len(chain.movements) == 1 else (0.0, 0.0)
-        result.append(Constraint(cleaned(each.name), parts, text, chain, kind, offset, tilt))
+        first, second = (follower, base) if known.swapped else (base, follower)
+        ends = (parts[1], parts[0]) if known.swapped else parts
+        movements = known.chain.movements
+        offset, tilt = _apart(movements[0], first, second) if len(movements) == 1 else (0.0, 0.0)
+        result.append(Constraint(cleaned(each.name), ends, text, known.chain, known.kind, offset, tilt))
     return result
-
-
-def _unknown(kind: str) -> str:
-    """Say why a kind of joint is left out: it holds nothing, or is not known."""
-    free = kind.lower().replace("-", "") in FREE
-    return "it leaves all freedoms, and holds nothing" if free else "this kind is not known"
 
 
 def _apart(movement: str, base: Transform, follower: Transform) -> tuple[float, float]:
@@ -130,7 +130,7 @@ def _mate(
     if parts is None:
         notes.append(f"{text}: {where.why_not((each.sides[0].path, each.sides[1].path))}; left out")
         return None
-    if each.name.lower().startswith(LIMIT):
+    if each.kind.lower() in RANGES and any(word in _plain(each.name) for word in LIMITS):
         notes.append(
             f"{text} between {parts[0]!r} and {parts[1]!r} is a limit by its name: it holds nothing in between"
         )
@@ -148,9 +148,13 @@ def _mate(
         of = " and ".join(f"{'an' if kind[0] in 'aeiou' else 'a'} {kind}" for kind in named)
         notes.append(f"{text} of {of}, between {parts[0]!r} and {parts[1]!r}, is not understood; left out")
         return None
-    return Constraint(
-        cleaned(each.name), (parts[1], parts[0]) if found.swapped else parts, text, found.chain, found.kind
-    )
+    ends = (parts[1], parts[0]) if found.swapped else parts
+    return Constraint(cleaned(each.name), ends, text, found.chain, found.kind, found.offset, found.tilt)
+
+
+def _plain(name: str) -> str:
+    """Write a name in small letters without accents."""
+    return "".join(letter for letter in normalize("NFKD", name.lower()) if not combining(letter))
 
 
 def in_unit(transform: Transform, metres: float) -> Transform:

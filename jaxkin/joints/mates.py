@@ -6,7 +6,7 @@ cylinder about it, a point for a ball, of radii that add up to the distance.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -19,8 +19,10 @@ from jaxkin.joints.kinds import JointKind
 
 FeatureKind = Literal["point", "line", "plane"]
 
-KEEP_DISTANCE = ("concentric", "coincident", "distance", "tangent")
-"""Mates, in small letters, that keep the distance of their features, and with it that they are parallel."""
+COINCIDE = ("concentric", "coincident")
+"""Mates, in small letters, that lay one of their features on the other."""
+KEEP_DISTANCE = ("distance", "tangent")
+"""Mates that keep the distance of their features, and with it that they are parallel."""
 KEEP_ANGLE = ("parallel", "perpendicular", "angle")
 """Mates that keep the angle between their features only."""
 
@@ -30,6 +32,7 @@ _FEATURES: dict[str, FeatureKind] = {
     "plane": "plane",
 }  # fmt: skip
 """What a mate holds of the geometry that exporters name: of a cylinder or a circle its axis, of a sphere its centre."""
+_ROUND = ("cylinder", "cone", "sphere")
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,15 +45,18 @@ class MateFeature:
     """Unit vector along a line, or normal to a plane; of a point any."""
     circle: bool = False
     """Whether it is the axis of a circle, which lies in a plane, too."""
+    surface: bool = False
+    """Whether it is the axis of a round surface or its centre, on which what coincides with it need not lie."""
 
     @staticmethod
     def of(geometry: str, point: Vector, axis: Vector | None) -> MateFeature | None:
         """Make the feature of some geometry as exporters name it; None for a kind that is not known."""
-        kind = _FEATURES.get(geometry.strip().lower())
+        name = geometry.strip().lower()
+        kind = _FEATURES.get(name)
         if kind is None or (axis is None and kind != "point"):
             return None
-        circle = geometry.strip().lower() == "circle"
-        return MateFeature(kind, point, np.array([0.0, 0.0, 1.0]) if axis is None else axis, circle)
+        along = np.array([0.0, 0.0, 1.0]) if axis is None else axis
+        return MateFeature(kind, point, along, circle=name == "circle", surface=name in _ROUND)
 
 
 class MateSet(NamedTuple):
@@ -61,45 +67,91 @@ class MateSet(NamedTuple):
     """The kind of joint that the mate is by itself; None where it is none."""
     swapped: bool = False
     """Whether the chain begins at the second part."""
+    offset: float = 0.0
+    """Distance by which features that are to coincide do not at the assembled pose."""
+    tilt: float = 0.0
+    """Angle by which features are not parallel, or not perpendicular, that are to be, radians."""
 
 
 def mate(tag: str, one: MateFeature, other: MateFeature, angle: float, length: float) -> MateSet | None:
     """Find the displacements that a mate allows, by the name that exporters give to it; None if it is not understood.
 
-    The features keep what they have at the assembled pose. Directions within `angle` (radians) are parallel, or
-    perpendicular; features nearer to each other than `length` coincide. None, too, where the features are not as such a
-    mate has them: a line that is not parallel to its plane, a perpendicular mate that is not.
+    What is to coincide, to be parallel or perpendicular is taken to be, as it stands on the first of the two parts;
+    distances and other angles are those of the assembled pose. Directions within `angle` (radians) are parallel;
+    features nearer to each other than `length` coincide. None, too, for a distance between features that are not
+    parallel.
     """
     tag = tag.lower()
-    if tag == "coincident" and (found := _circle_in_plane(one, other, angle, length)):
-        return found
-    if tag in KEEP_DISTANCE:
-        order: tuple[FeatureKind, ...] = ("plane", "line", "point")
-        swapped = order.index(one.kind) > order.index(other.kind)
-        first, second = (other, one) if swapped else (one, other)
-        found = _DISTANCES[first.kind, second.kind](first, second, angle, length)
-        return None if found is None else MateSet(found[0], found[1], swapped)
+    order: tuple[FeatureKind, ...] = ("plane", "line", "point")
+    swapped = order.index(one.kind) > order.index(other.kind)
+    first, second = (other, one) if swapped else (one, other)
     if tag in KEEP_ANGLE and "point" not in (one.kind, other.kind):
-        return MateSet(_angle_kept(one, other, angle), None)
-    return None
+        return _angle_kept(tag, first, second, angle)._replace(swapped=swapped)
+    if tag not in COINCIDE + KEEP_DISTANCE:
+        return None
+    offset = tilt = 0.0
+    if tag == "coincident" and first.circle and second.kind == "point" and _beside(first, second.point) > length:
+        return _on_circle(first, second, swapped)
+    if tag in COINCIDE and not (tag == "coincident" and _on_round(first, second)):
+        flat = tag == "coincident" and second.circle and (first.circle or first.kind == "plane")
+        first = replace(first, kind="plane") if flat and first.circle else first
+        laid, offset, tilt = _laid_on(first, replace(second, kind="plane") if flat else second)
+        if flat and one.circle and other.circle:
+            apart = float(np.linalg.norm(second.point - first.point))
+            pin = Chain([_ALONE[JointKind.REVOLUTE]], frame(first.point, first.axis)[None])
+            return MateSet(pin, JointKind.REVOLUTE, swapped, apart, tilt)
+        second = laid
+    found = _DISTANCES[first.kind, second.kind](first, second, angle, length)
+    return None if found is None else MateSet(found[0], found[1], swapped, offset, tilt)
 
 
-def _circle_in_plane(one: MateFeature, other: MateFeature, angle: float, length: float) -> MateSet | None:
-    """Find the displacements of a circle on a circle, or in a plane; None for other features."""
-    flat = [feature.circle or feature.kind == "plane" for feature in (one, other)]
-    if not all(flat) or not (one.circle or other.circle) or not _parallel(one, other, angle):
-        return None
-    if not (one.circle and other.circle):
-        return MateSet(*_state("a", frame(one.point, one.axis)))
-    if np.linalg.norm(other.point - one.point) > length:
-        return None
-    return MateSet(Chain([_ALONE[JointKind.REVOLUTE]], frame(one.point, one.axis)[None]), JointKind.REVOLUTE)
+def _on_circle(circle: MateFeature, point: MateFeature, swapped: bool) -> MateSet:
+    """Find the displacements of a point that stays on a circle, in its plane: around it, and about the point."""
+    on = _on_plane(circle, point.point)
+    kinds = JointKind.REVOLUTE, JointKind.SPHERICAL
+    frames = np.stack([frame(circle.point, circle.axis), frame(on, circle.axis)])
+    offset = float(np.linalg.norm(point.point - on))
+    return MateSet(Chain([_ALONE[kind] for kind in kinds], frames), None, swapped, offset)
+
+
+def _on_round(first: MateFeature, second: MateFeature) -> bool:
+    """Check whether one of two features that coincide lies on a round surface, and so beside its axis."""
+    round_one = first.surface != second.surface and not (first.circle or second.circle)
+    return round_one and "plane" not in (first.kind, second.kind)
+
+
+def _laid_on(first: MateFeature, second: MateFeature) -> tuple[MateFeature, float, float]:
+    """Lay the second feature on the first one; with the distance and the angle (radians) by which it was not there.
+
+    The first one is a plane, a line or a point, and has no fewer dimensions than the second one.
+    """
+    axis, sine = second.axis, 0.0
+    if first.kind == second.kind != "point":
+        sine = float(np.linalg.norm(np.cross(first.axis, axis)))
+        axis = first.axis * (1.0 if first.axis @ axis >= 0.0 else -1.0)
+    elif second.kind == "line":
+        sine = abs(float(first.axis @ axis))
+        axis = _across(first.axis, axis)
+    point = {"plane": _on_plane(first, second.point), "line": second.point - _away(first, second.point)}.get(
+        first.kind, first.point
+    )
+    offset = float(np.linalg.norm(second.point - point))
+    return replace(second, point=point, axis=axis), offset, float(np.arcsin(min(1.0, sine)))
+
+
+def _across(normal: Vector, axis: Vector) -> Vector:
+    """Make a unit vector perpendicular to a normal, along an axis as far as that is possible."""
+    along = axis - (axis @ normal) * normal
+    length = float(np.linalg.norm(along))
+    return along / length if length > 1e-6 else frame(np.zeros(3), normal)[:3, 0]
 
 
 FoundJoint = tuple[Chain, JointKind] | None
 
 _ALONE = {kind: movement for kind, movement in LOWER_PAIRS.values()}
 """Kinds of lower pairs -> their movements."""
+ANGLE_KEPT = tuple(_ALONE[kind] for kind in (JointKind.PLANAR, JointKind.PRISMATIC, JointKind.REVOLUTE))
+"""Movements of two parts that keep an angle: all slides, turns about the axis of part 1, turns about that of part 2."""
 
 
 def _plane_plane(one: MateFeature, other: MateFeature, angle: float, _: float) -> FoundJoint:
@@ -123,7 +175,7 @@ def _plane_point(plane: MateFeature, point: MateFeature, _angle: float, _length:
 def _line_line(one: MateFeature, other: MateFeature, angle: float, length: float) -> FoundJoint:
     first, second = frame(one.point, one.axis), frame(other.point, other.axis)
     if _parallel(one, other, angle):
-        if np.linalg.norm(_away(one, other.point)) <= length:
+        if _beside(one, other.point) <= length:
             return _state("e", first)
         return _state("f", first, second)
     across = np.cross(one.axis, other.axis)
@@ -133,7 +185,7 @@ def _line_line(one: MateFeature, other: MateFeature, angle: float, length: float
 
 
 def _line_point(line: MateFeature, point: MateFeature, _: float, length: float) -> FoundJoint:
-    on_line = np.linalg.norm(_away(line, point.point)) <= length
+    on_line = _beside(line, point.point) <= length
     frames = frame(line.point, line.axis), frame(point.point, line.axis)
     return _state("j", *frames, region="circle" if on_line else None)
 
@@ -157,13 +209,20 @@ _DISTANCES = {
 """Kinds of the two features, in this order -> their displacements where their distance stays."""
 
 
-def _angle_kept(one: MateFeature, other: MateFeature, angle: float) -> Chain:
-    """Find the displacements that keep an angle: all translations, and the turns about both axes (one if parallel)."""
-    first, second = frame(one.point, one.axis), frame(one.point, other.axis)
-    kinds, frames = [JointKind.PLANAR, JointKind.PRISMATIC], [first, first]
-    if not _parallel(one, other, angle):
-        kinds, frames = [*kinds, JointKind.REVOLUTE], [*frames, second]
-    return Chain([_ALONE[kind] for kind in kinds], np.stack(frames))
+def _angle_kept(tag: str, first: MateFeature, second: MateFeature, angle: float) -> MateSet:
+    """Find the displacements that keep an angle: all translations, and the turns about both axes (one if parallel).
+
+    A line that is parallel to a plane is perpendicular to its normal.
+    """
+    axis, tilt = second.axis, 0.0
+    aligned = _parallel(first, second, angle)
+    if tag != "angle":
+        aligned = (tag == "parallel") == (first.kind == second.kind)
+        sine = np.linalg.norm(np.cross(first.axis, axis)) if aligned else abs(float(first.axis @ axis))
+        tilt = float(np.arcsin(min(1.0, sine)))
+        axis = axis if aligned else _across(first.axis, axis)
+    frames = [frame(first.point, first.axis)] * 2 + [frame(first.point, axis)] * (not aligned)
+    return MateSet(Chain(ANGLE_KEPT[: len(frames)], np.stack(frames)), None, tilt=tilt)
 
 
 def _state(letter: str, *frames: Transform, region: str | None = None) -> tuple[Chain, JointKind]:
@@ -180,6 +239,11 @@ def _parallel(one: MateFeature, other: MateFeature, angle: float) -> bool:
 def _on_plane(plane: MateFeature, point: Vector) -> Vector:
     """Project a point onto a plane."""
     return point - float((point - plane.point) @ plane.axis) * plane.axis
+
+
+def _beside(line: MateFeature, point: Vector) -> float:
+    """Measure the distance of a point from a line."""
+    return float(np.linalg.norm(_away(line, point)))
 
 
 def _away(line: MateFeature, point: Vector) -> Vector:

@@ -98,3 +98,118 @@ def test_mates_with_planes_of_the_assembly_are_with_what_is_held(tmp_path):
     mates = mate("Coincident", "top", ("machine", "plane", (0, 0, 0.5), Z), ("slide", "plane", (0, 0, 0.5), Z))
     (joint,) = load(tmp_path, tree, mates=mates).mechanism().all_joints
     assert joint.kind == "planar" and joint.parts == ("base", "slide")
+
+
+def beside(feature, by, axis=Z):
+    """A feature of the same kind that is moved along x, with another axis."""
+    kind, point, _ = feature
+    return kind, (point[0] + by, *point[1:]), axis
+
+
+CIRCLE, CYLINDER, ACROSS = ("circle", (0, 0, 0), Z), ("cylinder", (0, 0, 0), Z), ("plane", (0, 0, 0), X)
+
+
+@pytest.mark.parametrize(
+    ("kind", "one", "other", "found"),
+    [
+        ("Concentric", CYLINDER, beside(CYLINDER, 1e-3), "cylindrical"),
+        ("Concentric", CYLINDER, beside(CYLINDER, 0, (1e-3, 0, 1)), "cylindrical"),
+        ("Concentric", ("sphere", (0, 0, 0), Z), ("sphere", (1e-3, 0, 0), Z), "spherical"),
+        ("Coincident", POINT, beside(POINT, 0.1), "spherical"),
+        ("Coincident", CIRCLE, beside(CIRCLE, 1e-3), "revolute"),
+        ("Coincident", ACROSS, beside(ACROSS, 1e-3, X), "planar"),
+        ("Coincident", ACROSS, beside(ACROSS, 0, (1, 1e-3, 0)), "planar"),
+        ("Coincident", ("line", (0, 0, 0), Z), beside(("point", (0, 0, 0), Z), 1e-3), "contact j"),
+    ],
+)
+def test_features_that_are_to_coincide_and_do_not_are_taken_to_and_named(tmp_path, kind, one, other, found):
+    """A centre that is to be in another one is a ball there, and not a rod that is as long as the two are apart."""
+    tree = instance("base", grounded="true") + instance("part", (0.5, 0, 0)).replace("0.5", "0")
+    mechanism = load(tmp_path, tree, mates=mate(kind, "m", ("base", *one), ("part", *other))).mechanism()
+    assert [joint.kind for joint in mechanism.all_joints] == [found]
+    assert any(f"{kind} 'm'" in note and "apart as exported" in note for note in mechanism.notes)
+
+
+def test_features_of_parts_that_lock_each_other_and_do_not_meet_are_named(tmp_path):
+    tree = instance("base", grounded="true") + instance("lid")
+    mates = "".join(
+        mate("Coincident", f"{axis}", ("base", "plane", (0, 0, 0), axis), ("lid", "plane", (0.1, 0, 0), axis))
+        for axis in (X, Y, Z)
+    )
+    mechanism = load(tmp_path, tree, mates=mates).mechanism()
+    assert mechanism.mobility().freedoms == 0
+    assert any("0.1 and 0 rad apart as exported" in note for note in mechanism.notes)
+
+
+@pytest.mark.parametrize(("kind", "axis"), [("Parallel", (1, 1, 0)), ("Perpendicular", (1, 1, 0))])
+def test_mates_of_angles_that_do_not_hold_are_named(tmp_path, kind, axis):
+    tree = instance("base", grounded="true") + instance("part")
+    mates = mate("Concentric", "pin", ("base", *CYLINDER), ("part", *CYLINDER))
+    mates += mate(kind, "square", ("base", *ACROSS), ("part", "plane", (0, 0, 0), axis))
+    mechanism = load(tmp_path, tree, mates=mates).mechanism()
+    assert [joint.kind for joint in mechanism.all_joints] == ["prismatic"]
+    assert any(f"{kind} 'square'" in note and "0.79 rad apart as exported" in note for note in mechanism.notes)
+
+
+def test_points_on_round_faces_keep_their_distance_and_are_no_error(tmp_path):
+    tree = instance("base", grounded="true") + instance("part", (0.5, 0, 0)).replace("0.5", "0")
+    on_face = mate("Coincident", "m", ("base", *CYLINDER), ("part", "point", (0.1, 0, 0), Z))
+    mechanism = load(tmp_path, tree, mates=on_face).mechanism()
+    assert mechanism.mobility().freedoms == 5
+    on_edge = mate("Coincident", "m", ("base", *CIRCLE), ("part", "point", (0.1, 0, 0), Z))
+    upright = mate("Parallel", "up", ("base", *ACROSS), ("part", *ACROSS))
+    upright += mate("Parallel", "level", ("base", *PLANE), ("part", *PLANE))
+    noted = load(tmp_path, tree, mates=on_edge + upright).mechanism().notes
+    assert not any("apart" in note for note in (*mechanism.notes, *noted))
+
+
+def test_a_ball_and_two_lines_that_stay_perpendicular_are_a_universal_joint(tmp_path):
+    tree = instance("fork", grounded="true") + instance("shaft")
+    mates = mate("Coincident", "centre", ("shaft", *POINT), ("fork", *POINT))
+    mates += mate("Perpendicular", "cross", ("fork", "line", (0, 0, 0), Z), ("shaft", "line", (0, 0, 0), X))
+    mechanism = load(tmp_path, tree, mates=mates).mechanism()
+    (joint,) = mechanism.all_joints
+    assert (joint.kind, joint.parts) == ("universal", ("fork", "shaft"))
+    turned = mechanism.sweep({f"{joint.name}.phi": np.array([0.0, 0.7]), f"{joint.name}.theta": np.array([0.0, 0.4])})
+    assert abs(np.asarray(turned.transforms["shaft"])[-1, :3, :3] @ X @ Z) < 1e-12
+    assert not any("left out" in note for note in mechanism.notes)
+
+
+@pytest.mark.parametrize(
+    "name", ["LimitDistance1", "Distance limite 2", "Dist\u00e1ncia l\u00edmite1", "\u9650\u5236\u8ddd\u79bb1"]
+)
+def test_limits_are_known_in_other_languages(tmp_path, name):
+    tree = instance("base", grounded="true") + instance("part")
+    mates = mate("Concentric", "pin", ("base", *CYLINDER), ("part", *CYLINDER))
+    mates += mate("Distance", name, ("base", *PLANE), ("part", "plane", (0, 0, 0.1), Z))
+    mechanism = load(tmp_path, tree, mates=mates).mechanism()
+    assert [joint.kind for joint in mechanism.all_joints] == ["cylindrical"]
+    assert any(name in note and "limit" in note for note in mechanism.notes)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_mates_that_repeat_each_other_are_one_joint_with_numbers_of_six_digits(tmp_path, seed):
+    """A slide of two pairs of faces and two parallel mates, of parts that stand askew in the assembly."""
+    random = np.random.default_rng(seed)
+    z, x, y = np.linalg.qr(random.normal(size=(3, 3)))[0].T
+    places = {name: np.linalg.qr(random.normal(size=(3, 3)))[0] for name in ("base", "slide")}
+    places = {name: turn * np.sign(np.linalg.det(turn)) for name, turn in places.items()}
+
+    def six(numbers):
+        return " ".join(f"{number:.6f}" for number in np.ravel(numbers))
+
+    tree = "".join(
+        instance(name, grounded=str(name == "base").lower()).replace("1 0 0 0 1 0 0 0 1", six(turn))
+        for name, turn in places.items()
+    )
+    mates = ""
+    for number, (kind, normal) in enumerate([("Coincident", x), ("Coincident", y), ("Parallel", x), ("Parallel", z)]):
+        sides = []
+        for name, turn in places.items():
+            point = np.cross(normal, random.normal(size=3)) * 0.1
+            local = [np.array(six(turn.T @ each).split(), float) for each in (point, normal)]
+            sides.append((name, "plane", *local))
+        mates += mate(kind, f"m{number}", *sides)
+    (joint,) = load(tmp_path, tree, mates=mates).mechanism().all_joints
+    assert joint.kind == "prismatic"
+    assert np.linalg.norm(np.cross(np.asarray(joint.frames_1)[0, :3, 2], z)) < 1e-5  # a few roundings of 5e-7
