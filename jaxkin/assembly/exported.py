@@ -59,6 +59,8 @@ class Exported:
     """Between coordinates of the constraints, by name; counted from where the file calls them zero."""
     rounding: float = 0.0
     """Angle by which directions of the file deviate by rounding, radians, as far as they show it."""
+    marks_rigid: bool = False
+    """Whether the file says which sub-assemblies are rigid, so that the others are not."""
     system: str = "CAD system"
     """What the file is from, for messages: "CAD system", "robot file"."""
 

@@ -75,7 +75,9 @@ def from_export(assembly: Assembly, exported: Exported, options: MechanismOption
     while locked := _locked(assembly, options, groups, constraints, noise, notes):
         groups += locked
     joints = _joints(assembly, options, groups, constraints, noise, notes, exported.motors)
-    groups += rigid_subassemblies(assembly.parts, options, groups, [each.joint.parts for each in joints if each.joint])
+    if not exported.marks_rigid:
+        joined = [each.joint.parts for each in joints if each.joint]
+        groups += rigid_subassemblies(assembly.parts, options, groups, joined)
     known = Known(assembly._measured, Contacts(()), options.fixed, options.rigid, options.joints)
     known.take([*groups, *joints])
     known.take(tied_to_nothing(known))

@@ -10,9 +10,9 @@ import numpy as np
 from jaxkin.assembly.exported import Constraint
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.pose import Transform
+from jaxkin.io.export_content import Export, ExportedJoint, ExportedMate
 from jaxkin.io.export_joints import joint_of_kind
 from jaxkin.io.names import cleaned
-from jaxkin.io.simscape import Export, ExportedJoint, ExportedMate
 from jaxkin.joints.combine import LOWER_PAIRS, Chain
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.mates import MateFeature, mate
@@ -20,7 +20,7 @@ from jaxkin.joints.mates import MateFeature, mate
 Paths = Mapping[tuple[str, ...], str]
 """Paths of instances -> names of their first solids."""
 
-LOCKS = ("weld", "lock", "fixed")
+LOCKS = ("weld", "lock", "fixed", "rigid")
 """Mates that leave no freedom."""
 
 LIMITS = ("limit", "grenz", "\u9650")

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from jaxkin._names import listed
 from jaxkin.io.export_constraints import PARALLEL_MATES, ConstrainedParts, Paths, joints_between, mates_between
-from jaxkin.io.simscape import Export
+from jaxkin.io.export_content import Export
 from jaxkin.joints.combine import Chain, lower_pair
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.regularise import Noise

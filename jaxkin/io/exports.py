@@ -17,9 +17,10 @@ from jaxkin.geometry.inertial import NONE
 from jaxkin.geometry.part import Part, moved, scaled
 from jaxkin.geometry.units import METRES
 from jaxkin.io.export_constraints import ConstrainedParts, Paths, in_unit, joints_between, mates_between
+from jaxkin.io.export_content import Export, ExportedPart
 from jaxkin.io.export_ground import fixed_parts
 from jaxkin.io.names import cleaned, unique
-from jaxkin.io.simscape import Export, ExportedPart, read_export
+from jaxkin.io.simscape import read_export
 
 Reader = Callable[[Path], tuple[tuple[Part, ...], str]]
 """Reads the solids in a file, in the frame of the file, and its unit; "" where the file says none."""
@@ -73,7 +74,8 @@ def read_exported(path: Path, root: Element, read_solids: Reader) -> tuple[tuple
         *mates_between(export.mates, where, metres, size, notes),
     ]
     rigid = (*groups, *_rigid(export, first))
-    return placed, unit, Exported(fixed, rigid, tuple(constraints), tuple(notes), rounding=export.rounding)
+    more = {"rounding": export.rounding, "marks_rigid": export.marks_rigid}
+    return placed, unit, Exported(fixed, rigid, tuple(constraints), tuple(notes), **more)
 
 
 def _read_each(

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import NamedTuple
 from xml.etree.ElementTree import Element
 
 import numpy as np
 
 from jaxkin.geometry.inertial import Inertial
+from jaxkin.io.export_content import Export, ExportedJoint, ExportedMate, ExportedPart, ExportedSide, MatedFeature
 from jaxkin.io.export_units import KILOGRAMS_BY_NAME, METRES_BY_NAME, factor, unit_of
 from jaxkin.io.xml_tree import read_xml
 
@@ -20,86 +21,9 @@ ORTHOGONAL = 1e-5
 RELATIONS = ("Joints/*", "Constraints/*")
 """Where an assembly has its joints and mates."""
 
-
-@dataclass(frozen=True, eq=False)
-class ExportedPart:
-    """An instance of a part, placed."""
-
-    path: tuple[str, ...]
-    """Identifiers of the assemblies that hold it, from the root, and its own."""
-    names: tuple[str, ...]
-    """Names along the path."""
-    file: str
-    """Name of its STEP file, beside the XML; empty where the export names none."""
-    transform: np.ndarray
-    """(4, 4) from its file to the world, metres."""
-    inertial: Inertial | None
-    """What it weighs: metres, in the axes of its file; None where the export does not say all of it."""
-    fixed_in: tuple[str, ...] | None
-    """Path of the assembly in which it is fixed, as it is placed there; () in the world, None where it may move."""
-    body: tuple[str, ...] | None
-    """The rigid group, or the rigid assembly, that holds it, by its path; None where the part moves alone."""
-
-    @property
-    def name(self) -> str:
-        """Names along the path, joined by "/"."""
-        return "/".join(self.names)
-
-
-@dataclass(frozen=True, eq=False)
-class ExportedSide:
-    """One side of a joint or mate."""
-
-    path: tuple[str, ...]
-    frame: np.ndarray
-    """(4, 4) in world coordinates, metres; the axis of a joint is its third column."""
-
-
-@dataclass(frozen=True, eq=False)
-class ExportedJoint:
-    """A joint or mate between two instances."""
-
-    name: str
-    kind: str
-    """The tag that the exporter writes: "Revolute", "Weld", ..."""
-    sides: tuple[ExportedSide, ExportedSide]
-
-
-@dataclass(frozen=True, eq=False)
-class MatedFeature:
-    """The geometry of an instance that a mate is about."""
-
-    path: tuple[str, ...]
-    kind: str
-    """As the exporter writes it: "plane", "line", "cylinder", "point", ..."""
-    point: np.ndarray
-    """(3,) in world coordinates, metres; the origin of the instance where the export has none."""
-    axis: np.ndarray | None
-    """(3,) unit vector in world coordinates: of a plane its normal; None where the export has none."""
-
-
-@dataclass(frozen=True, eq=False)
-class ExportedMate:
-    """A mate between geometry of two instances."""
-
-    name: str
-    kind: str
-    """The tag that the exporter writes: "Concentric", "Coincident", ..."""
-    sides: tuple[MatedFeature, MatedFeature]
-
-
-@dataclass(frozen=True, eq=False)
-class Export:
-    """What one XML file says."""
-
-    name: str
-    parts: tuple[ExportedPart, ...]
-    joints: tuple[ExportedJoint, ...]
-    mates: tuple[ExportedMate, ...]
-    notes: tuple[str, ...]
-    """What is in the file and was not understood, one line each."""
-    rounding: float
-    """Largest entry by which rows of its rotations are not orthogonal unit vectors: about what the digits leave."""
+RIGID = "Rigid"
+"""A constraint of Creo: of two instances that they do not move against each other, of one that it is fixed in the
+assembly. It has no frames or features."""
 
 
 class _Above(NamedTuple):
@@ -116,6 +40,8 @@ class _Above(NamedTuple):
     """The rigid group or rigid assembly that holds it."""
     holds_all: bool = False
     """Whether all in it is fixed, unless it says which: it is fixed itself, and has no joints or mates."""
+    held: Mapping[tuple[str, ...], tuple[str, ...]] = MappingProxyType({})
+    """Paths below it of what is held by constraints -> path of the assembly in which it is fixed."""
 
 
 def read_export(path: str | Path, root: Element | None = None) -> Export:
@@ -148,7 +74,8 @@ class _Reader:
         """Place all instances, then the joints of the root and of each sub-assembly where it is placed."""
         tree, parts, assemblies = root.find("InstanceTree"), [], [((), root)]
         if tree is not None:
-            for path, names, instance, fixed_in, body in self._instances(tree, _Above((), (), np.eye(4), (), None)):
+            world = _Above((), (), np.eye(4), (), None, held=_held(root, ()))
+            for path, names, instance, fixed_in, body in self._instances(tree, world):
                 uid = instance.get("entityUid")
                 if uid in self.part_of:
                     parts.append(self._part(self.part_of[uid], path, names, fixed_in, body))
@@ -160,7 +87,8 @@ class _Reader:
         found = [one for path, assembly in assemblies for one in self._relations(assembly, path)]
         joints = tuple(one for one in found if isinstance(one, ExportedJoint))
         mates = tuple(one for one in found if isinstance(one, ExportedMate))
-        return Export(root.get("name", ""), tuple(parts), joints, mates, tuple(self.notes), self.rounding)
+        marks_rigid = tree is not None and any(_true(each, "rigid") for each in tree.iter("Instance"))
+        return Export(root.get("name", ""), tuple(parts), joints, mates, tuple(self.notes), self.rounding, marks_rigid)
 
     def _instances(self, at: Element, above: _Above) -> Iterator[tuple]:
         """Yield (path, names, element, fixed in, body) of the instances inside an element, outer ones first.
@@ -170,7 +98,9 @@ class _Reader:
         and in the world only if that is: the first part of most assemblies is, also of those that move.
         """
         inside = at.findall("Instance")
-        everything = above.holds_all and not any(_true(one, "grounded") for one in inside)
+        grounded = {one.get("uid", "") for one in inside if _true(one, "grounded")}
+        held = {**{(uid,): above.stands_in for uid in grounded}, **above.held}
+        everything = above.holds_all and not grounded
         for one in inside:
             inner, called = (*above.path, one.get("uid", "")), (*above.names, one.get("name", ""))
             group = one.get("rigidGroup")
@@ -180,12 +110,16 @@ class _Reader:
                     f"{'/'.join(called)}: another instance has its identifier {inner[-1]!r}; taken for one body"
                 )
             self.placed[inner] = above.place @ self._transform(one.find("Transform"), "/".join(called))
-            fixed_in = above.stands_in if everything or _true(one, "grounded") else None
+            fixed_in = above.stands_in if everything else held.get((inner[-1],))
             yield inner, called, one, fixed_in, body
             definition = self.assembly_of.get(one.get("entityUid"))
             tied = definition is not None and any(definition.find(each) is not None for each in RELATIONS)
             stands_in, holds_all = (inner, False) if fixed_in is None else (fixed_in, not tied)
-            yield from self._instances(one, _Above(inner, called, self.placed[inner], stands_in, body, holds_all))
+            below = {path[1:]: at for path, at in held.items() if path[0] == inner[-1] and len(path) > 1}
+            below |= {} if definition is None else _held(definition, stands_in)
+            yield from self._instances(
+                one, _Above(inner, called, self.placed[inner], stands_in, body, holds_all, below)
+            )
 
     def _part(
         self, part: Element, path: tuple, names: tuple, fixed_in: tuple | None, body: tuple | None
@@ -212,23 +146,28 @@ class _Reader:
         for one in (each for place in RELATIONS for each in assembly.iterfind(place)):
             name = one.get("name", "")
             frames = [self._side(frame, path, name) for frame in (one.find("BaseFrame"), one.find("FollowerFrame"))]
+            paths = [self._path(each, path) for each in one.iterfind("InstancePath")]
+            known = all(each in self.placed for each in paths)
             features = [self._feature(each, path, name) for each in one.iterfind("ConstraintGeometry")]
             if frames[0] and frames[1]:
                 yield ExportedJoint(name, one.tag, (frames[0], frames[1]))
             elif len(features) == 2 and features[0] and features[1]:
                 yield ExportedMate(name, one.tag, (features[0], features[1]))
-            else:
+            elif len(paths) == 2 and known:
+                bare = [MatedFeature(each, "", self.placed[each][:3, 3], None) for each in paths]
+                yield ExportedMate(name, one.tag, (bare[0], bare[1]))
+            elif not (one.tag == RIGID and len(paths) == 1 and known):  # those are read with the instances
                 several = f"it is of {len(features)} features, and only relations of two are kept"
                 why = several if len(features) > 2 else "no two frames or features of instances of the file"
                 self.notes.append(f"{one.tag} {name!r}: {why}; left out")
 
     def _side(self, frame: Element | None, above: tuple, name: str) -> ExportedSide | None:
-        if frame is None or (path := self._path(frame, above)) not in self.placed:
+        if frame is None or (path := self._path(frame.find("InstancePath"), above)) not in self.placed:
             return None
         return ExportedSide(path, self.placed[path] @ self._transform(frame.find("Transform"), name))
 
     def _feature(self, geometry: Element, above: tuple, name: str) -> MatedFeature | None:
-        if (path := self._path(geometry, above)) not in self.placed:
+        if (path := self._path(geometry.find("InstancePath"), above)) not in self.placed:
             return None
         place, axis, point = self.placed[path], None, np.zeros(3)
         if (written := geometry.findtext("Position")) is not None:
@@ -257,12 +196,12 @@ class _Reader:
             transform[:3, 3] = self._numbers(at.findtext("Translation"), 3, name) * self.metres
         return transform
 
-    def _path(self, side: Element, above: tuple[str, ...]) -> tuple[str, ...]:
+    def _path(self, inside: Element | None, above: tuple[str, ...]) -> tuple[str, ...]:
         """Read the identifiers from the root to the instance that a side of a joint or mate is on.
 
-        What is on the assembly itself is written with the identifier of the root, or of the assembly.
+        What is on the assembly itself has no path, or one with the identifier of the root or of the assembly only.
         """
-        path = tuple(uid.text or "" for uid in side.iterfind("InstancePath/Uid"))
+        path = _uids(inside)
         itself = path in ((self.uid_of[()],), (self.uid_of[above],)) and (*above, *path) not in self.placed
         return above if itself else (*above, *path)
 
@@ -292,3 +231,13 @@ class _Reader:
 
 def _true(instance: Element, attribute: str) -> bool:
     return instance.get(attribute, "").strip().lower() == "true"
+
+
+def _uids(path: Element | None) -> tuple[str, ...]:
+    return () if path is None else tuple(uid.text or "" for uid in path.iterfind("Uid"))
+
+
+def _held(assembly: Element, stands_in: tuple[str, ...]) -> dict[tuple[str, ...], tuple[str, ...]]:
+    """List the paths, below an assembly, of what its constraints fix in it."""
+    alone = [each.findall("InstancePath") for each in assembly.iterfind(f"Constraints/{RIGID}")]
+    return {_uids(paths[0]): stands_in for paths in alone if len(paths) == 1 and _uids(paths[0])}

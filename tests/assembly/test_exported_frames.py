@@ -81,3 +81,38 @@ def test_an_export_that_holds_no_part_asks_for_one(tmp_path):
         assembly.mechanism()
     assert assembly.mechanism(fixed=["base"]).mobility().freedoms == 1
     assert assembly.proposals()[0].freedoms == 1
+
+
+def rigid(*paths):
+    """A constraint of one or two instances without features, as Creo writes it."""
+    ends = ("".join(f"<Uid>{uid}</Uid>" for uid in path.split("/")) for path in paths)
+    return f'<Rigid name="r">{"".join(f"<InstancePath>{end}</InstancePath>" for end in ends)}</Rigid>'
+
+
+def test_rigid_constraints_of_one_instance_hold_it_and_of_two_make_them_one_body(tmp_path):
+    """The base of an arm stands in a sub-assembly that stands in the world; a cover belongs to the arm."""
+    tree = instance("frame", (0, 0, 1), instance("base"), of="A") + instance("arm") + instance("cover", (0.2, 0, 0))
+    sub = f'<Assembly uid="A"><Constraints>{rigid("base")}</Constraints></Assembly>'
+    mates = rigid("frame") + rigid("arm", "cover")
+    mates += mate("Coincident", "face", ("arm", "plane", (0, 0, 0), Z), ("frame", "plane", (0, 0, -1), Z))
+    mates += mate("Coincident", "axis", ("arm", "line", (0, 0, 0), Z), ("frame", "line", (0, 0, 0), (0, 0, -30)))
+    mechanism = load(tmp_path, tree, mates=mates, assemblies=sub).mechanism()
+    assert mechanism.fixed == ("base",) and mechanism.bodies["arm"] == ("arm", "cover")
+    assert [found.kind for found in mechanism.all_joints if found.freedoms] == ["revolute"]
+    assert not any("left out" in note or "apart" in note for note in mechanism.notes)
+
+
+@pytest.mark.parametrize(("marked", "freedoms"), [("true", 3), ("false", 1)])
+def test_sub_assemblies_that_are_not_rigid_are_not_where_others_are_said_to_be(tmp_path, marked, freedoms):
+    """Two links of a chain are in one folder; without a word of what is rigid that is taken for one part."""
+    links = instance("one") + instance("three", (1, 0, 0))
+    tools = instance("tools", (3, 0, 0), instance("spare") + instance("knob"), of="B", rigid=marked)
+    tree = instance("base", grounded="true") + instance("links", inside=links, of="A") + instance("two") + tools
+    ends = ("base", "links/one", "two", "links/three")
+    joints = "".join(
+        joint("Revolute", f"j{k}", ends[k], ends[k + 1], (0.1 * k, 0, 0), None if k < 2 else (0.1 * k - 1, 0, 0))
+        for k in range(3)
+    )
+    assemblies = '<Assembly uid="A"/><Assembly uid="B"/>'
+    mechanism = load(tmp_path, tree, joints, assemblies=assemblies).mechanism()
+    assert mechanism.mobility().freedoms == freedoms

@@ -193,3 +193,27 @@ def test_mates_of_more_than_two_features_are_told_as_such(tmp_path: Path) -> Non
     assert export.notes == (
         "UnknownConstraint 'Width1': it is of 3 features, and only relations of two are kept; left out",
     )
+
+
+def test_rigid_constraints_have_paths_only_and_of_one_instance_fix_it_in_its_assembly(tmp_path: Path) -> None:
+    """As Creo writes them; features of the assembly itself have no path."""
+
+    def rigid(*paths: tuple[str, ...]) -> str:
+        texts = ("".join(f"<Uid>{uid}</Uid>" for uid in path) for path in paths)
+        return f'<Rigid name="r">{"".join(f"<InstancePath>{text}</InstancePath>" for text in texts)}</Rigid>'
+
+    inner = "".join(instance(uid, "P", FRAME.format("0 0 0")) for uid in "bcd")
+    tree = instance("s", "A", FRAME.format("1 0 0"), inner) + instance("e", "P", FRAME.format("0 0 0"))
+    sub = f'<Assembly uid="A"><Constraints>{rigid(("b",))}</Constraints></Assembly>'
+    plane = '<ConstraintGeometry geomType="plane">{}<Position>0 0 0</Position><Axis>0 0 1</Axis></ConstraintGeometry>'
+    top = f'<Coincident name="top">{plane.format("")}{plane.format("<InstancePath><Uid>e</Uid></InstancePath>")}'
+    held = rigid(("s", "c"), ("e",)) + rigid(("s", "d")) + top + "</Coincident>"
+    path = written(tmp_path, tree, held, sub)
+    text = path.read_text().replace("<Constraints/><Joints>", "<Constraints>")
+    path.write_text(text.replace("</Joints></RootAssembly>", "</Constraints></RootAssembly>"))
+    export = read_export(path)
+    assert {part.path: part.fixed_in for part in export.parts} == {
+        ("s", "b"): ("s",), ("s", "c"): None, ("s", "d"): (), ("e",): None
+    }  # fmt: skip
+    assert [[side.path for side in mate.sides] for mate in export.mates] == [[("s", "c"), ("e",)], [(), ("e",)]]
+    assert export.notes == ()
