@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from jaxkin._names import free_name
+from jaxkin._names import free_name, listed
 from jaxkin.assembly.exported import Constraint, Exported
 from jaxkin.assembly.ignored_contacts import check_ignored
 from jaxkin.assembly.inference.inference import Inference
@@ -97,9 +97,11 @@ def _coupled(linkage: Linkage, exported: Exported, notes: list[str]) -> Linkage:
     names = {joint.name for joint in linkage.joints if joint.freedoms}
     kept = []
     for coupling in exported.couplings:
-        tied = [each if each in names else each.rpartition(".")[0] for each in coupling.coordinates]
-        if missing := [joint for joint in tied if joint not in names]:
-            notes.append(f"{coupling.name!r} is left out: {', '.join(map(repr, missing))} moves nothing here")
+        still = [each for each in coupling.coordinates if not {each, each.rpartition(".")[0]} & names]
+        if still:
+            others = [each for each in coupling.coordinates if each not in still]
+            held = f"; drive {listed(list(map(repr, others)))} with zeros to hold what it ties" if others else ""
+            notes.append(f"{coupling.name!r} is left out: {listed(list(map(repr, still)))} moves nothing here{held}")
         else:
             kept.append(coupling)
     return coupled(linkage, counted_from(kept, linkage.joints, exported.joint_values))

@@ -18,7 +18,7 @@ from jaxkin.geometry.inertial import NONE, Inertial
 from jaxkin.geometry.pose import Transform, inverse
 from jaxkin.io.mjcf_attach import attached
 from jaxkin.io.mjcf_keyframe import at_keyframe
-from jaxkin.io.mjcf_masses import body_masses
+from jaxkin.io.mjcf_masses import body_masses, scaled_notes
 from jaxkin.io.mjcf_shapes import Shapes
 from jaxkin.io.mjcf_text import Compiler, Defaults, included, replicated
 from jaxkin.io.mjcf_ties import Ties
@@ -96,7 +96,8 @@ class _Reader:
         self.defaults = Defaults(root, path.name)
         replicated(root, self.compiler)
         self.shapes = Shapes(root, self.compiler, self.defaults)
-        self.found = ModelBodies(notes=[*notes, *unknown_parts(root, SECTIONS, path.name), *_gravity(root, path.name)])
+        told = [*unknown_parts(root, SECTIONS, path.name), *_gravity(root, path.name), *scaled_notes(self.compiler)]
+        self.found = ModelBodies(notes=[*notes, *told])
 
     def model(self) -> RobotModel:
         """Go through the bodies, then what ties them together and what moves them."""
@@ -207,16 +208,23 @@ class _Reader:
             if after != body:
                 found.poses[after], found.shapes[after], found.inertials[after] = pose, [], NONE
             name = each.get("name") or f"{body}/joint {number}"
-            found.joints.append(self._joint(each, name, (before, after), at, child_class))
+            found.joints.append(self._joint(each, name, (before, after), at, child_class, pose))
             found.order.append(name)
             for key in each.iterfind("key"):
                 found.keys.setdefault(key.get("name", ""), {})[name] = key.get("qpos", "")
             before = after
 
     def _joint(
-        self, each: Element, name: str, parts: tuple[str, str], at: Transform, child_class: str | None
+        self,
+        each: Element,
+        name: str,
+        parts: tuple[str, str],
+        at: Transform,
+        child_class: str | None,
+        pose: Transform,
     ) -> RobotJoint:
-        """Read a joint between two parts."""
+        """Read a joint between two parts, given in the frame `at`; a ball turns about the axes of its body at `pose`,
+        whatever frame it is written in."""
         said, where = self.defaults.said(each, child_class), f"{self.file}: {tag(each)}"
         written = said.get("type", "hinge")
         if written not in KINDS:
@@ -224,7 +232,9 @@ class _Reader:
         kind = KINDS[written]
         point = numbers(said.get("pos"), 3, where, (0, 0, 0))
         axis = direction(numbers(said.get("axis"), 3, where, (0, 0, 1)), where)
-        frame = at @ placed(along(axis) if kind is not JointKind.SPHERICAL else np.eye(3), point)
+        frame = at @ placed(along(axis), point)
+        if kind is JointKind.SPHERICAL:
+            frame = placed(pose[:3, :3], frame[:3, 3])
         unit = self.compiler.radians if kind is not JointKind.PRISMATIC else 1.0
         value = float(numbers(said.get("ref"), 1, where, (0,))[0]) * unit
         if float(numbers((said.get("stiffness") or "0").split()[0], 1, where)[0]) != 0.0:

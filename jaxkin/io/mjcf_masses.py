@@ -11,6 +11,7 @@ import numpy as np
 from jaxkin.geometry.inertial import NONE, Inertial
 from jaxkin.geometry.pose import Transform
 from jaxkin.io.mjcf_shapes import Shapes, group_of
+from jaxkin.io.mjcf_text import Compiler
 from jaxkin.io.robot_inertials import inertial
 from jaxkin.io.robot_model import Weighed, numbers, tag
 
@@ -20,6 +21,21 @@ WITHOUT_MASS = ("plane", "hfield")
 """Types of solids that are only for collisions."""
 OTHERWISE = ("shell", "convex")
 """Entries of `inertia` of a mesh by which MuJoCo weighs something else than what its surface encloses."""
+
+
+_SCALED = {"settotalmass": "all masses are scaled to this sum", "boundmass": "no mass is smaller",
+           "boundinertia": "no principal inertia is smaller"}  # fmt: skip
+"""Settings of the compiler by which bodies weigh what is not written -> what MuJoCo makes of a number above zero."""
+
+
+def scaled_notes(compiler: Compiler) -> tuple[str, ...]:
+    """Write a note for each setting of a compiler that changes masses: they are kept as they are written."""
+    return tuple(
+        f"{compiler.file}: {key}={compiler.said[key]!r} of its <compiler> is not kept ({meaning} in MuJoCo): masses "
+        "are as written"
+        for key, meaning in _SCALED.items()
+        if float(numbers(compiler.said.get(key), 1, f"{compiler.file}: {key}", (0,))[0]) > 0
+    )
 
 
 def body_masses(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import replace
 from xml.etree.ElementTree import Element
 
 import numpy as np
@@ -64,7 +65,7 @@ class Ties:
 
     def couplings(self, joints: Mapping[str, RobotJoint]) -> tuple[Coupling, ...]:
         """Make the couplings of <joint>: `q_1 - r_1 = sum_k a_k (q_2 - r_2)^k`, with `r` as the bodies are written."""
-        result = []
+        result: list[Coupling] = []
         for each in self.root.iterfind("equality/joint"):
             said, where = self.defaults.said(each, key="equality"), f"{self.file}: {tag(each)}"
             if said.get("active", "true") == "false":
@@ -90,7 +91,9 @@ class Ties:
             made = polynomial(names[0], names[1], factors[: max(powers, 2)], name=f"{names[0]} follows {names[1]}")
             at = np.array([-joints[name].values[0] if joints[name].values else 0.0 for name in names[::-1]])
             result.append(shifted_coupling(made, at))
-        return (*result, *self._length_couplings(joints))
+        result += self._length_couplings(joints)
+        names = unique(each.name for each in result)  # two constraints may tie the same joints
+        return tuple(replace(each, name=name) for each, name in zip(result, names, strict=True))
 
     def _length_couplings(self, joints: Mapping[str, RobotJoint]) -> Iterator[Coupling]:
         """Make the couplings of <tendon>: the lengths of fixed tendons are sums of joints, `y_1 - a_1 y_2 = a_0`."""

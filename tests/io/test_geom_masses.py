@@ -74,6 +74,17 @@ def test_groups_that_do_not_count(tmp_path):
     assert of_body(mechanism)[0] == 1.0
 
 
+@pytest.mark.parametrize("setting", ["settotalmass", "boundmass", "boundinertia"])
+def test_settings_that_scale_masses_are_told(tmp_path, setting):
+    """MuJoCo would give the body another mass, or inertia, than is written."""
+    solid = "<geom size='.1' mass='1'/>"
+    mechanism = loaded(model(solid, f"<compiler {setting}='3'/>"), tmp_path)
+    assert of_body(mechanism)[0] == 1.0
+    assert any(f"{setting}='3'" in note and "is not kept" in note for note in mechanism.notes)
+    without = loaded(model(solid, f"<compiler {setting}='-1'/>"), tmp_path)
+    assert not any(setting in note for note in without.notes)
+
+
 def test_a_mesh_is_moved_to_its_reference_before_it_is_scaled(tmp_path):
     """A corner of a cube, of 1/6 of its volume, whose centre is at a quarter of each edge."""
     scaled = "scale='.1 .2 .3' refpos='.5 0 0'"

@@ -103,3 +103,18 @@ def test_a_weld_is_closed_where_mujoco_finds_it_closed(tmp_path, said):
                 data.joint(name).qpos = (start.get(name) or (0.0,))[0] + values[pose, 0]
         mujoco.mj_forward(model, data)
         np.testing.assert_allclose(data.efc_pos[:6], 0, atol=1e-12)  # the tolerance of sweeps
+
+
+def test_a_ball_turns_about_the_axes_of_its_body_whatever_frame_it_is_in(tmp_path):
+    """MuJoCo's quaternion of a ball is a rotation in the axes of the body, not in those of a frame around the joint."""
+    turned = "<frame pos='0 0 1' euler='0 90 0'><joint name='ball' type='ball'/></frame>"
+    (tmp_path / "model.xml").write_text(
+        f"<mujoco><worldbody><body name='a' euler='0 0 90'>{turned}<geom size='.1'/></body></worldbody></mujoco>"
+    )
+    mechanism = jk.load(tmp_path / "model.xml").mechanism()
+    np.testing.assert_allclose(mechanism.joints["ball"].frames_1[0, :3, 3], [0, 0, 1], atol=1e-15)
+    drive = {"ball.theta": np.array([0, 0.3]), "ball.phi": np.zeros(2), "ball.psi": np.zeros(2)}
+    rotation = np.asarray(mechanism.sweep(drive).transforms["a"])[1, :3, :3]
+    x = [0, 1, 0]  # the x axis of the body
+    np.testing.assert_allclose(rotation @ x, x, atol=1e-12)
+    assert np.trace(rotation) == pytest.approx(1 + 2 * np.cos(0.3))

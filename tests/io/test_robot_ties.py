@@ -96,3 +96,25 @@ def test_a_file_of_somebody_else_is_not_taken_away(tmp_path):
     assert other.is_file()
     jk.write_urdf(mechanism, tmp_path / "new.urdf")  # a file of loops of an earlier mechanism is
     assert not other.exists()
+
+
+BARS = """<mujoco><worldbody>
+<body name='a'><joint name='j1' axis='0 0 1'/><geom size='.1'/>
+<body name='b' pos='1 0 0'><joint name='j2' axis='0 0 1'/><geom size='.1'/></body></body></worldbody>
+<equality>%s</equality></mujoco>"""
+
+
+def test_joints_that_are_tied_twice_have_two_ties(tmp_path):
+    (tmp_path / "bars.xml").write_text(BARS % (2 * "<joint joint1='j2' joint2='j1' polycoef='0 2'/>"))
+    mechanism = jk.load(tmp_path / "bars.xml").mechanism()
+    assert len(mechanism.linkage.couplings) == 2 and mechanism.mobility().freedoms == 1
+    motion = mechanism.sweep({"j1": np.linspace(0, 0.5, 3)}, throw=True)
+    np.testing.assert_allclose(motion.coordinates["j2"][:, 0], [0, 0.5, 1], atol=1e-12)
+
+
+def test_what_follows_a_joint_that_a_weld_locks_is_told_by_name(tmp_path):
+    ties = "<weld body1='b' body2='a'/><joint joint1='j1' joint2='j2'/>"
+    (tmp_path / "bars.xml").write_text(BARS % ties)
+    notes = jk.load(tmp_path / "bars.xml").mechanism().notes
+    said = "'j1 follows j2' is left out: 'j2' moves nothing here; drive 'j1' with zeros to hold what it ties"
+    assert said in notes
