@@ -56,7 +56,8 @@ class Ties:
                 continue  # see `couplings`
             elif each.tag not in KINDS:
                 about = [repr(value) for key, value in each.attrib.items() if key.rstrip("12") in ("joint", "tendon")]
-                self.notes.append(f"{where} between {listed(about)} is not kept: they move on their own")
+                between = f" between {listed(about)}" if about else ""
+                self.notes.append(f"{where}{between} is not kept: what it ties moves on its own")
             else:
                 made = self._loop(each, said, names, where)
                 names.add(made.name)

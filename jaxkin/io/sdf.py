@@ -7,7 +7,7 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 
-from jaxkin._names import nearest
+from jaxkin._names import listed, nearest
 from jaxkin.geometry.inertial import NONE
 from jaxkin.geometry.pose import Transform
 from jaxkin.io.robot_couplings import Mimic, follower
@@ -52,8 +52,8 @@ MODEL_TAGS = ("link", "joint", "model", "frame", "pose", "static", "self_collide
               "plugin", "gripper")  # fmt: skip
 """Elements of a model that are read, or are not about motion."""
 
-WORLD_PARTS = ("model", "light", "gui", "scene", "physics", "plugin", "state", "gravity", "magnetic_field", "wind",
-               "atmosphere", "spherical_coordinates", "audio", "road", "population", "frame")  # fmt: skip
+WORLD_PARTS = ("model", "light", "gui", "scene", "physics", "plugin", "state", "gravity", "joint", "magnetic_field",
+               "wind", "atmosphere", "spherical_coordinates", "audio", "road", "population", "frame")  # fmt: skip
 """Elements of a world that are read, or are not about motion."""
 
 
@@ -68,8 +68,13 @@ class _Reader:
     def __init__(self, path: Path, root: Element) -> None:
         self.file = path.name
         self.notes: list[str] = []
-        world = root.find("world")
+        worlds = root.findall("world")
+        world = worlds[0] if worlds else None
         self.top = root if world is None else world
+        beside = [*worlds[1:], *(root.findall("model") if worlds else [])]
+        if beside:
+            names = listed([tag(each) for each in beside])
+            self.notes.append(f"{self.file}: only {tag(self.top)} is read; {names} beside it left out")
         included(self.top, path.parent, self.file)
         if world is not None:
             self.notes += unknown_parts(world, WORLD_PARTS, self.file)
@@ -87,11 +92,13 @@ class _Reader:
         models = self.top.findall("model")
         if not models:
             raise ValueError(f"{self.file}: there is no <model> in it")
-        world = self._frames(self.top)
+        world, between = self._frames(self.top), self.top.findall("joint")
         for each in models:
             name = each.get("name", "")
-            prefix = "" if len(models) == 1 else name + IN_ANOTHER
+            prefix = "" if len(models) == 1 and not between else name + IN_ANOTHER
             self._read(each, world.inner[name], prefix, world.in_model(name), False)
+        for each in between:
+            self._joint(each, world, "", np.eye(4), False)
         if len(self.links) == 1:
             raise ValueError(f"{self.file}: there is no <link> in it")
         needed = {part for each in self.joints for part in each.parts}
@@ -120,7 +127,7 @@ class _Reader:
         static = static or is_true(model.findtext("static"))
         for each in model.iterfind("link"):
             name = each.get("name", "")
-            seen, felt = (shapes_of(each, what, self.file, self.notes) for what in ("visual", "collision"))
+            seen, felt = (shapes_of(each, what, frames, self.notes) for what in ("visual", "collision"))
             weighs = sdf_inertial(each, f"{self.file}: {tag(each)}: inertial", self.notes)
             place = pose @ frames.in_model(name)
             self.links[prefix + name] = RobotLink(prefix + name, place, seen, felt, weighs)

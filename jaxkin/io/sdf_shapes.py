@@ -6,15 +6,21 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 
+from jaxkin.geometry.pose import inverse
 from jaxkin.io.robot_model import LinkShape, numbers, tag
-from jaxkin.io.sdf_frames import read_pose
+from jaxkin.io.sdf_frames import SdfFrames, read_pose, relative_to
 
 
-def shapes_of(link: Element, what: str, file: str, notes: list[str]) -> tuple[LinkShape, ...]:
-    """Read the solids of the elements `what` of a link: "visual" or "collision". What is no known solid is noted."""
-    found = []
+def shapes_of(link: Element, what: str, frames: SdfFrames, notes: list[str]) -> tuple[LinkShape, ...]:
+    """Read the solids of the elements `what` of a link: "visual" or "collision". What is no known solid is noted.
+
+    They are given in the frame of the link, or in another one of the `frames` of its model.
+    """
+    file, name, found = frames.file, link.get("name", ""), []
     for each in link.iterfind(what):
         pose = read_pose(each, f"{file}: {tag(link)}")
+        if (base := relative_to(each, name)) != name:
+            pose = inverse(frames.in_model(name)) @ frames.in_model(base) @ pose
         where = f"{file}: {tag(link)}: {tag(each)}"
         for solid in each.iterfind("geometry/*"):
             sizes = {"box": ("size",), "sphere": ("radius",), "cylinder": ("radius", "length"),

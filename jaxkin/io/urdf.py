@@ -29,6 +29,7 @@ from jaxkin.io.robot_model import (
     tag,
     unknown_parts,
 )
+from jaxkin.io.xml_tree import has_macros
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import JointLimits
 from jaxkin.joints.kinds import JointKind
@@ -49,9 +50,6 @@ JOINT = ("origin", "parent", "child", "axis", "limit", "mimic", "dynamics", "cal
          "joint_properties")  # fmt: skip
 """Elements of a joint that are read, or are about forces, controllers and sensors."""
 
-XACRO = ("include", "macro", "property", "if", "unless")
-"""Elements of the macro language that URDFs are made with, without their prefix."""
-
 
 def read_urdf(path: Path, root: Element, loops: Path | None) -> RobotModel:
     """Read a robot with its loops; ValueError, in one line, for what is no tree or not understood."""
@@ -65,19 +63,18 @@ class _Reader:
     def __init__(self, file: str, root: Element, loops: Loops) -> None:
         self.file, self.root, self.loops = file, root, loops
         self.links = {each.get("name", ""): each for each in root.iterfind("link")}
-        self.joints = [each for each in root.iterfind("joint")]
+        self.joints = root.findall("joint")
         self.kinds = dict(loops.kinds)
         self.notes = [*loops.notes, *unknown_parts(root, ROBOT, file)]
 
     def model(self) -> RobotModel:
         """Place the links from the root on, then the joints, the loops and the motors."""
-        written = "".join(self._attributes())
-        if any(each.tag in XACRO for each in self.root) or "${" in written or "$(" in written:
+        if has_macros(self.root):
             raise ValueError(f"{self.file}: it has macros of xacro; expand it first: xacro {self.file} > robot.urdf")
         if not self.links:
             raise ValueError(f"{self.file}: there is no <link> in it")
-        if len(self.links) < len(self.root.findall("link")):
-            names = [each.get("name", "") for each in self.root.iterfind("link")]
+        names = [each.get("name", "") for each in self.root.iterfind("link")]
+        if len(self.links) < len(names):
             twice = next(name for name in names if names.count(name) > 1)
             raise ValueError(f"{self.file}: link {twice!r} is there twice; every link needs a name of its own")
         order, base = self._tree()
@@ -105,9 +102,6 @@ class _Reader:
             ]
         couplings = [each for element in order if (each := self._mimic(element, known)) is not None]
         return RobotModel(links, (*joints, *loops), (base,), motors, tuple(self.notes), tuple(couplings))
-
-    def _attributes(self) -> list[str]:
-        return [value for each in self.root.iter() for value in each.attrib.values()]
 
     def _parts(self, joint: Element) -> tuple[str, str]:
         """Find the parent and child link of a joint; ValueError where they are not there."""

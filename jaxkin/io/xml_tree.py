@@ -20,9 +20,14 @@ MOST_LETTERS = 4096
 MOST_DEEP = 200
 """Elements inside each other: an instance five assemblies deep is at depth 8."""
 
+MACROS = "xacro:"
+"""Prefix of the tags of the macro language of robot files: they are no elements of a format."""
+OLD_MACROS = ("include", "macro", "property", "if", "unless")
+"""Such tags as old files have them, without the prefix, in the root element."""
+
 
 def read_xml(path: Path) -> Element:
-    """Read the root element of an XML file, tags without their namespaces.
+    """Read the root element of an XML file, tags without their namespaces but for `MACROS`.
 
     Raises FileNotFoundError where there is no file, and ValueError, in one line, where the file is larger or deeper
     than the bounds, declares a document type (the only place of entities), has a name as long as a book, or is damaged.
@@ -45,12 +50,12 @@ def parse_xml(data: bytes, name: str) -> Element:
         for key, text in attributes.items():
             if len(text) > MOST_LETTERS and text[:MOST_LETTERS].strip(OF_NUMBERS):
                 raise ValueError(f"{name}: <{tag[:MOST_DEEP]}>: {key[:MOST_DEEP]!r} is a text of {len(text)} letters")
-        builder.start(tag.rpartition(":")[2], attributes)
+        builder.start(_local(tag), attributes)
 
     def end(tag: str) -> None:
         nonlocal depth
         depth -= 1
-        builder.end(tag.rpartition(":")[2])
+        builder.end(_local(tag))
 
     def refuse(*_: object) -> None:
         raise ValueError(f"{name}: declares a document type (DOCTYPE), which may hold entities; remove the line")
@@ -63,3 +68,14 @@ def parse_xml(data: bytes, name: str) -> Element:
     except (expat.ExpatError, LookupError) as error:  # an encoding that there is not is looked up
         raise ValueError(f"{name}: damaged XML: {error}") from None
     return builder.close()
+
+
+def _local(tag: str) -> str:
+    return tag if tag.startswith(MACROS) else tag.rpartition(":")[2]
+
+
+def has_macros(root: Element) -> bool:
+    """Check whether a robot file is still to be expanded: it has macros of xacro, or their parameters in attributes."""
+    written = "".join(value for each in root.iter() for value in each.attrib.values())
+    marked = any(each.tag.startswith(MACROS) for each in root.iter()) or "${" in written or "$(" in written
+    return marked or any(each.tag in OLD_MACROS for each in root)

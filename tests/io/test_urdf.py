@@ -177,6 +177,8 @@ def test_a_missing_mesh_and_unknown_elements_are_named(tmp_path):
         ),
         ('<link name="${name}"/>', "xacro"),
         ('<link name="$(arg name)"/>', "xacro"),
+        ('<link name="a"><xacro:inertia_of_a_box mass="1"/></link>', "xacro"),
+        ('<xacro:leg side="left"/>', "xacro"),
         ("<link", "damaged XML"),
     ],
 )
