@@ -23,6 +23,9 @@ MAX_COPIED = 100_000
 MAIN = "main"
 """Name of the outermost default class where the file gives none."""
 
+TURNS = ("quat", "axisangle", "euler", "xyaxes", "zaxis")
+"""Attributes that give the orientation of an element, each in its way."""
+
 WRITTEN_OUT = "(written out)"
 """Class of elements that have all attributes themselves: those of attached models."""
 
@@ -179,7 +182,7 @@ class Defaults:
         own = {key: dict(attributes) for key, attributes in above.items()}
         for each in element:
             if each.tag != "default":
-                own[each.tag] = own.get(each.tag, {}) | each.attrib
+                own[each.tag] = _over(own.get(each.tag, {}), each.attrib)
         self.classes[name] = own
         for each in element.iterfind("default"):
             if not (inner := each.get("class", "")):
@@ -195,4 +198,10 @@ class Defaults:
         if name not in self.classes:
             known = [each for each in self.classes if each != WRITTEN_OUT]
             raise ValueError(f"{self.file}: {tag(element)}: unknown class {name!r}{nearest(name, known)}")
-        return self.classes[name].get(key or element.tag, {}) | element.attrib
+        return _over(self.classes[name].get(key or element.tag, {}), element.attrib)
+
+
+def _over(given: Mapping[str, str], said: Mapping[str, str]) -> dict[str, str]:
+    """Put attributes over those of a class; an orientation in one way over one in another."""
+    turned = any(key in said for key in TURNS)
+    return {key: value for key, value in given.items() if not (turned and key in TURNS)} | dict(said)

@@ -118,3 +118,24 @@ def test_a_ball_turns_about_the_axes_of_its_body_whatever_frame_it_is_in(tmp_pat
     x = [0, 1, 0]  # the x axis of the body
     np.testing.assert_allclose(rotation @ x, x, atol=1e-12)
     assert np.trace(rotation) == pytest.approx(1 + 2 * np.cos(0.3))
+
+
+TURNED = {
+    "quat": "quat='.7071067811865476 0 0 .7071067811865476'", "axisangle": "axisangle='1 0 0 90'",
+    "euler": "euler='0 90 0'", "xyaxes": "xyaxes='0 1 0 0 0 1'", "zaxis": "zaxis='0 1 1'",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("own", TURNED)
+@pytest.mark.parametrize("given", TURNED)
+def test_an_orientation_goes_before_that_of_the_class_in_whichever_way_it_is_written(tmp_path, given, own):
+    """As MuJoCo has it: a site that says how it is turned is turned so, also where its class says it otherwise."""
+
+    def turn(default, said):
+        site = f"<body name='b'><geom size='.1'/><site name='s' {said}/></body><body name='c'><geom size='.1'/></body>"
+        weld = "<equality><weld name='w' site1='s' site2='t'/></equality>"
+        other = "<site name='t' quat='1 0 0 0'/>"
+        text = f"<mujoco><default><site {default}/></default><worldbody>{other}{site}</worldbody>{weld}</mujoco>"
+        return loop_of(tmp_path, text, "w").frame_1[:3, :3]
+
+    np.testing.assert_allclose(turn(TURNED[given], TURNED[own]), turn("", TURNED[own]), atol=1e-15)
