@@ -57,8 +57,9 @@ class Exported:
     """Names of the constraints that the file says are actuated, or "name.coordinate" of one of several."""
     couplings: tuple[Coupling, ...] = ()
     """Between coordinates of the constraints, by name; counted from where the file calls them zero."""
-    rounding: float = 0.0
-    """Angle by which directions of the file deviate by rounding, radians, as far as they show it."""
+    accuracy: float = 0.0
+    """Angle by which directions of the file deviate from what is meant, radians, and lengths over the size of the
+    assembly, where that is more than nine digits have: by rounding, and by how mates are solved."""
     marks_rigid: bool = False
     """Whether the file says which sub-assemblies are rigid, so that the others are not."""
     system: str = "CAD system"

@@ -68,7 +68,7 @@ def from_export(assembly: Assembly, exported: Exported, options: MechanismOption
     check_options(assembly.names, options)
     check_ignored((), options.ignore, [frozenset(each.parts) for each in exported.constraints])
     notes = [*exported.notes]
-    digits = max(DIGITS, PLACES * exported.rounding)
+    digits = max(DIGITS, PLACES * exported.accuracy)
     noise = Noise(digits, digits * size(assembly.parts))
     groups = _groups(exported, options)
     constraints = [each for each in exported.constraints if not _replaced(each, options)]

@@ -28,6 +28,10 @@ Reader = Callable[[Path], tuple[tuple[Part, ...], str]]
 LISTED = 3
 """Parts or files that a warning names, each with its path."""
 
+SOLVED = 2.5e-6
+"""Radians, and lengths over the size of the assembly, within which systems solve mates: to 1e-6 as published files
+show, where parts stand in between."""
+
 BOX = 0.02
 """Edge of the box of a part without a solid, over the size of the assembly."""
 
@@ -74,7 +78,8 @@ def read_exported(path: Path, root: Element, read_solids: Reader) -> tuple[tuple
         *mates_between(export.mates, where, metres, size, notes),
     ]
     rigid = (*groups, *_rigid(export, first))
-    more = {"rounding": export.rounding, "marks_rigid": export.marks_rigid}
+    accuracy = max(export.rounding, SOLVED) if export.mates else export.rounding
+    more = {"accuracy": accuracy, "marks_rigid": export.marks_rigid}
     return placed, unit, Exported(fixed, rigid, tuple(constraints), tuple(notes), **more)
 
 

@@ -213,3 +213,23 @@ def test_mates_that_repeat_each_other_are_one_joint_with_numbers_of_six_digits(t
     (joint,) = load(tmp_path, tree, mates=mates).mechanism().all_joints
     assert joint.kind == "prismatic"
     assert np.linalg.norm(np.cross(np.asarray(joint.frames_1)[0, :3, 2], z)) < 1e-5  # a few roundings of 5e-7
+
+
+def solved(kind, name, one, point, axis, error):
+    """A mate of the part that stands as systems solve it, turned about the origin by a small vector, with the base."""
+
+    def on_part(vector):
+        return np.asarray(vector, float) + np.cross(error, vector)
+
+    sides = [("base", one, point, axis), ("part", one, on_part(point), on_part(axis))]
+    return mate(kind, name, *sides[:: -1 if len(name) % 2 else 1])  # either side may come first
+
+
+@pytest.mark.parametrize("error", [(5e-6, 0, 0), (0, 5e-6, 0), (4e-6, -3e-6, 1e-6)])
+def test_mates_that_are_solved_to_a_few_millionths_lock_nothing_that_turns(tmp_path, error):
+    tree = instance("base", grounded="true") + instance("part") + instance("far", (0.5, 0, 0), grounded="true")
+    mates = solved("Concentric", "pin", "cylinder", (0, 0, 0.1), Z, error)
+    mates += solved("Coincident", "face", "plane", (0, 0, 0), Z, error)
+    mates += solved("Parallel", "level", "plane", (0, 0, 0), Z, error)
+    mates += solved("Coincident", "axis", "line", (0, 0, 0), Z, error)
+    assert [joint.kind for joint in load(tmp_path, tree, mates=mates).mechanism().all_joints] == ["revolute"]
