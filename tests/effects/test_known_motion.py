@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import jaxkin as jk
+from jaxkin.mechanism.known_motion import follow, known_motion
 from jaxkin.solve.options import options_with
 from reference import catalogue, mechanisms
 from reference.mechanisms import Z
@@ -129,3 +130,31 @@ def test_no_pose_is_found_anew():
     assert np.all(rates[3] == 0) and np.array_equal(
         np.delete(rates, 3, 0), np.delete(velocities.coordinates["D"], 3, 0)
     )
+
+
+@pytest.mark.long
+def test_balls_roll_on_planes_whose_frame_is_not_below_them():
+    """Poses are read back as they are: the plane's origin may be anywhere on it, and the loop is cut at the ball."""
+    plane, ball = (np.eye(4) for _ in range(2))
+    plane[:3, 3], ball[:3, 3] = (40.0, -30.0, 0.0), (100.0, 20.0, 8.0)
+    mechanism = jk.Mechanism.build(
+        fixed=["ground"],
+        joints=[
+            jk.revolute("hinge", "ground", "lever", point=(0, 0, 10), axis=(0.2, 1, 0.1)),
+            jk.contact_joint("rolls", "lever", "slider", state="d", frames=[plane, ball]),
+            jk.prismatic("rail", "ground", "slider", point=(100, 20, 8), axis=(0.1, 0.3, 1)),
+        ],
+        unit="mm",
+    )
+    motion = mechanism.sweep({"hinge": WAY}, throw=True)
+    drive, known = known_motion(motion)
+    for one, other in zip(follow(drive, known)({**motion.inputs}), motion.displacements, strict=True):
+        np.testing.assert_allclose(one, other, atol=1e-11)  # rounding of some hundreds of millimetres
+    centre = np.array([50.0, 10.0, 5.0])
+    masses = jk.masses(mechanism, given={"lever": jk.Mass(0.4, centre=centre), "slider": 0.0})
+    found = jk.reactions(motion, masses, gravity=(0, 0, 0), rates={"hinge": 3.0})
+    sent = np.asarray(found.forces["hinge"]) - np.asarray(found.forces["rolls"])
+    # on a circle about the hinge
+    axis = np.array([0.2, 1, 0.1]) / np.linalg.norm([0.2, 1, 0.1])
+    arm = 1e-3 * (np.asarray(motion.points("lever", centre)) - np.array([0, 0, 10.0]))
+    np.testing.assert_allclose(sent, 0.4 * 9.0 * np.cross(axis, np.cross(axis, arm)), atol=1e-9)
