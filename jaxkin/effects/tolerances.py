@@ -47,7 +47,9 @@ def tolerances(
 
     `measure` returns one number. With a `drive` it is a function of the pose, where the drive gives one displacement a
     coordinate, as in `mechanism.solve`; of the motion where it gives arrays, as in `mechanism.sweep`. Without a drive
-    it is a function of the mechanism. It is computed by jax.numpy, and `label` is what it is called in print.
+    it is a function of the mechanism, and whether the poses close that it looks at is not known here: it returns
+    `jnp.where(jnp.all(motion.closed), value, jnp.nan)` where designs may not. It is computed by jax.numpy, and `label`
+    is what it is called in print.
 
     With s the derivatives of the measure by the n lengths, t their limits (three times the deviation of `jk.sigma`) and
     sigma_i their standard deviations (t / sqrt(3) of an even distribution):
