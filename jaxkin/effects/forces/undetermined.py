@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import NamedTuple
 
 import jax
 import numpy as np
@@ -22,11 +23,21 @@ from jaxkin.solve.execution.compiler import whole_program
 COMPONENTS = ("torque x", "torque y", "torque z", "force x", "force y", "force z")
 MAX_POSES = 3
 """Poses at which the balance is looked at: a singular one leaves more reactions open than its neighbours."""
-RANK = 1e-9
-"""Singular value of the balance over its largest one, at which equations count as dependent: the closure of the pose,
-1e-12, over the sines of the angles between its axes."""
-SHARE = 1e-6
-"""Share in the open reactions, from which a component counts as open: above rounding over `RANK`."""
+
+
+class _Told(NamedTuple):
+    """From which sizes on numbers are told from rounding, in one precision."""
+
+    rank: float
+    """Singular value of the balance over its largest one, at which equations count as dependent: the closure of the
+    pose over the sines of the angles between its axes."""
+    share: float
+    """Share in the open reactions, from which a component counts as open: above what rounding leaves of none."""
+
+
+TOLD = {"float64": _Told(1e-9, 1e-6), "float32": _Told(1e-5, 1e-3)}
+"""By the precision of the poses, which close to 1e-12 and to 1e-6. Shares of none are up to 1e-5 in float32 where
+singular values are a tenth of the largest one."""
 
 
 @dataclass(frozen=True)
@@ -70,6 +81,11 @@ def _placed(driven: tuple[JointCoordinate, ...], linkage: Linkage, displacements
     return balance(linkage, places(linkage, displacements, chords=True), displacements, driven)
 
 
+def _told(system: Balance) -> _Told:
+    """Return what is told from rounding in the precision in which the joints were placed."""
+    return TOLD[str(system.arms[0].dtype)]
+
+
 def _joint_at(system: Balance, joint: int, free: list[int], pose: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Decompose the wrenches at the point of a joint in a pose of a `Balance`.
 
@@ -81,7 +97,7 @@ def _joint_at(system: Balance, joint: int, free: list[int], pose: int) -> tuple[
     lever[:3, 3:] = [[0, -z, y], [z, 0, -x], [-y, x, 0]]
     screws = lever.T @ np.stack([system.screws[joint][k][:, pose] for k in free] or [np.zeros(6)], axis=1)
     left, values, right = np.linalg.svd(screws, full_matrices=True)
-    rank = int((values > RANK * values.max(initial=0.0)).sum())
+    rank = int((values > _told(system).rank * values.max(initial=0.0)).sum())
     loads = left[:, :rank] / values[:rank] @ right[:rank]
     return left[:, rank:], loads, lever
 
@@ -112,7 +128,7 @@ def _at(
         owner.append(-1)
     matrix = np.concatenate([np.zeros((6 * len(moving), 0)), *columns], axis=1)
     _, values, directions = np.linalg.svd(matrix, full_matrices=True)
-    open_ones = directions[int((values > RANK * values.max(initial=0.0)).sum()) :]
+    open_ones = directions[int((values > _told(system).rank * values.max(initial=0.0)).sum()) :]
     found = []
     for number, joint in enumerate(linkage.joints):
         wrench = bases[number] @ open_ones[:, np.array(owner, int) == number].T
@@ -120,7 +136,7 @@ def _at(
             np.asarray(motion.transforms[joint.parts[1]][pose], float)[:3, :3] @ np.asarray(joint.frames_2[-1])[:3, :3]
         )
         own = np.concatenate([axes.T @ wrench[:3], axes.T @ wrench[3:]])
-        which = np.linalg.norm(own, axis=1) > SHARE
+        which = np.linalg.norm(own, axis=1) > _told(system).share
         if which.any():
             names = tuple(name for name, chosen in zip(COMPONENTS, which, strict=True) if chosen)
             found.append(Undetermined(joint.name, joint.parts, names))

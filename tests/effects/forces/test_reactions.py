@@ -253,3 +253,28 @@ def test_what_has_no_drive_is_told():
     np.testing.assert_allclose(np.abs(held), 0.5, rtol=1e-9)
     both = jk.drive_forces(arm.sweep({"A": np.zeros(2), "B": np.zeros(2)}), own)
     assert "without a drive" not in str(both)
+
+
+@pytest.mark.long
+@pytest.mark.filterwarnings("ignore:jaxkin computes in float32")
+def test_what_is_determined_does_not_depend_on_the_precision():
+    """The torque of a drive is determined, however a screw jack stands in space."""
+    axis, away = np.array([0.3, -0.5, 0.8]), np.array([3000.0, -2000.0, 5000.0])
+    across = np.array([0.8, 0.0, -0.3])
+    jack = jk.Mechanism.build(
+        fixed=["ground"],
+        joints=[
+            jk.revolute("turn", "ground", "spindle", point=away, axis=axis),
+            jk.screw("thread", "spindle", "nut", point=away + 200 * axis, axis=axis, pitch=250.0),
+            jk.prismatic("guide", "ground", "nut", point=away + 300 * across, axis=axis),
+        ],
+        unit="mm",
+    )
+    force = jk.force("nut", away, (1.0, 2.0, 3.0))
+    told = []
+    for exact in (True, False):
+        with jax.enable_x64(exact):
+            motion = jack.sweep({"turn": np.linspace(0.1, 3.0, 5)})
+            told.append({each.joint: each.components for each in jk.reactions(motion, applied=force).undetermined})
+    assert told[0] == told[1]
+    assert "torque z" not in told[0]["turn"]
