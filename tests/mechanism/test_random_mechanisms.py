@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import jaxkin as jk
 from jaxkin.solve.options import SolverOptions
 from reference.hard_case import off_turns
 from reference.random_linkages import LINKAGES
@@ -71,6 +72,51 @@ def test_nothing_behind_a_limit_is_closed(linkage, points):
     inputs = np.concatenate([np.linspace(low, high, 20)[1:-1], low - np.geomspace(1e-2, 0.6, 12)])
     motion = mechanism.sweep({"A": inputs})
     np.testing.assert_array_equal(motion.closed, inputs > low)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    "linkage, drive, span, points",
+    [
+        (
+            WATT,
+            "Q1",
+            0.44905269,
+            [
+                *((0.869327, 0.766479), (0.561406, 0.680559), (0.25179, -0.154331), (-0.721252, -0.740867)),
+                *((-0.601941, -0.997271), (0.304403, 0.585855), (0.712071, 0.979743)),
+            ],
+        ),
+        (
+            STEPHENSON,
+            "Q1",
+            0.67325351,
+            [
+                *((0.696497, 0.588368), (0.611632, 0.109961), (0.148321, -0.099885), (-0.229846, -0.288318)),
+                *((-0.185872, -0.109428), (0.855584, -0.818453), (-0.114728, -0.994226)),
+            ],
+        ),
+        (
+            STEPHENSON,
+            "A",
+            1.57915716,
+            [
+                *((0.242389, 0.455901), (-0.0574, -0.049879), (-0.577602, -0.328329), (-0.090961, 0.855055)),
+                *((0.514425, -0.587096), (0.746399, -0.900184), (0.013089, -0.80179)),
+            ],
+        ),
+    ],
+    ids=["a curve that turns back", "a curve between two slopes", "a curve that ends at a limit"],
+)
+def test_no_pose_within_the_limits_is_taken_for_another_branch(linkage, drive, span, points):
+    """What one input reaches from the assembled pose lies between two limits, and only behind these a pose can be on
+    another branch: each of these had poses JUMPED in the middle, between samples of the branch far apart."""
+    _, _, mechanism = planar(linkage, *points)
+    inputs = span * np.linspace(-1.0, 1.0, 161)
+    status = np.asarray(mechanism.sweep({drive: inputs}, options=GENERAL).status)
+    assert status[80] == jk.Status.CLOSED
+    reached = np.flatnonzero(status == jk.Status.CLOSED)
+    np.testing.assert_array_equal(reached, np.arange(reached[0], reached[-1] + 1))
 
 
 @pytest.mark.long

@@ -9,6 +9,7 @@ tangent is for branches of which one pose is known, and for places where a predi
 
 from __future__ import annotations
 
+from functools import partial
 from typing import NamedTuple
 
 import jax
@@ -51,11 +52,11 @@ def predict_state(
     moved: Float[Array, " fronts"],
     along_tangent: Bool[Array, " fronts"],
     may_bend: Bool[Array, " fronts"],
-) -> tuple[State, Bool[Array, " fronts"]]:
+) -> State:
     """Extrapolate from `state` and its slope `tangent` by the distance `moved` along the path.
 
-    Where `along_tangent` holds, `history` is not used. The quaternions of balls are not normalised. Returns also which
-    fronts follow a curve that is far from its chord, as only those of `may_bend` do.
+    Where `along_tangent` holds, `history` is not used. Only fronts of `may_bend` follow a curve that is far from its
+    chord. The quaternions of balls are not normalised.
     """
     before, before_tangent, width, earlier_tangent, earlier_width = history
     s = moved / width
@@ -68,17 +69,12 @@ def predict_state(
         third = (second - (d_before - d_earlier) / earlier_width) / (width + earlier_width)
         return x + moved * (d + moved * (second / 2 + third * (moved / 3 + width / 2)))
 
-    def mean_chord(x: Array, d: Array, d_before: Array) -> Array:
-        return x - width * (d + d_before) / 2
-
     straight = jax.tree.map(chord, state, before)
     curve = jax.tree.map(integral, state, tangent, before_tangent, earlier_tangent)
     smooth = difference(curve, straight) <= SMOOTH * difference(straight, state)
-    by_slopes = jax.tree.map(mean_chord, state, tangent, before_tangent)
-    agree = may_bend & (difference(by_slopes, before) <= AGREEMENT * difference(state, before))
+    agree = may_bend & _agree(before, before_tangent, state, tangent, width)
     linear = jax.tree.map(lambda x, d: x + moved * d, state, tangent)
-    predicted = select_poses(along_tangent, linear, select_poses(smooth | agree, curve, straight))
-    return predicted, agree & ~smooth & ~along_tangent
+    return select_poses(along_tangent, linear, select_poses(smooth | agree, curve, straight))
 
 
 def hermite(
@@ -91,15 +87,36 @@ def hermite(
 ) -> State:
     """Interpolate between two states, a distance `width` apart, at the fraction `t` of it, by a Hermite cubic.
 
-    Slopes are derivatives with respect to the distance. Where the cubic is too far from the chord (`SMOOTH`), the chord
-    is taken. The quaternions of balls are not normalised.
+    Slopes are derivatives with respect to the distance. Where the cubic is too far from the chord (`SMOOTH`) and the
+    slopes are not those of the chord (`AGREEMENT`), the chord is taken. The quaternions of balls are not normalised.
     """
-    weights = ((1 + 2 * t) * (1 - t) ** 2, t * (1 - t) ** 2 * width, t * t * (3 - 2 * t), t * t * (t - 1) * width)
-
-    def blend(a: Array, slope_a: Array, b: Array, slope_b: Array) -> Array:
-        return weights[0] * a + weights[1] * slope_a + weights[2] * b + weights[3] * slope_b
-
-    curve = jax.tree.map(blend, left, left_slope, right, right_slope)
+    curve = jax.tree.map(partial(_cubic, width, t), left, left_slope, right, right_slope)
     chord = jax.tree.map(lambda a, b: a + t * (b - a), left, right)
     smooth = difference(curve, chord) <= SMOOTH * difference(left, right)
-    return select_poses(smooth, curve, chord)
+    return select_poses(smooth | _agree(left, left_slope, right, right_slope, width), curve, chord)
+
+
+def interpolable(
+    left: State, left_slope: State, right: State, right_slope: State, width: Float[Array, " fronts"]
+) -> Bool[Array, " fronts"]:
+    """Tell whether poses between two states, whose arguments are those of `hermite`, follow its cubic everywhere."""
+
+    def smooth(t: float) -> Bool[Array, " fronts"]:
+        curve = jax.tree.map(partial(_cubic, width, t), left, left_slope, right, right_slope)
+        chord = jax.tree.map(lambda a, b: a + t * (b - a), left, right)
+        return difference(curve, chord) <= SMOOTH * difference(left, right)
+
+    # a cubic is farthest from its chord between a quarter and three quarters, or at two places if it crosses it
+    return smooth(0.25) & smooth(0.5) & smooth(0.75) | _agree(left, left_slope, right, right_slope, width)
+
+
+def _cubic(width: Array, t: Array | float, a: Array, slope_a: Array, b: Array, slope_b: Array) -> Array:
+    """Compute the Hermite cubic between two arrays of coordinates at the fraction `t` of the distance `width`."""
+    weights = ((1 + 2 * t) * (1 - t) ** 2, t * (1 - t) ** 2 * width, t * t * (3 - 2 * t), t * t * (t - 1) * width)
+    return weights[0] * a + weights[1] * slope_a + weights[2] * b + weights[3] * slope_b
+
+
+def _agree(left: State, left_slope: State, right: State, right_slope: State, width: Array) -> Bool[Array, " poses"]:
+    """Tell whether the chord between two states follows the mean of the slopes at its ends (`AGREEMENT`)."""
+    by_slopes = jax.tree.map(lambda b, d, e: b - width * (d + e) / 2, right, left_slope, right_slope)
+    return difference(by_slopes, left) <= AGREEMENT * difference(right, left)

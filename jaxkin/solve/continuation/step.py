@@ -36,7 +36,7 @@ from jaxkin.solve.continuation.fronts import (
     stopped_at_limit,
 )
 from jaxkin.solve.continuation.input_slopes import input_slopes, slopes_of_branch
-from jaxkin.solve.continuation.predictor import History, predict_state
+from jaxkin.solve.continuation.predictor import History, interpolable, predict_state
 from jaxkin.solve.correctors.levenberg_marquardt import (
     LevenbergMarquardtResult,
     levenberg_marquardt,
@@ -67,8 +67,8 @@ CROSSING = 1e-3
 zero. At a change point, where two branches cross, the determinant changes its sign on the branch itself. Lengths with
 relative errors of 1e-6 turn the crossing into two branches about 1e-3 apart, the root of the error."""
 LEAST_RATIO = 0.5
-"""Least ratio of the determinants of a block at both ends of a step that was predicted by a curve far from its chord.
-Near a limit poses in a long step cannot be interpolated: one in 34,400 of random mechanisms was JUMPED without this."""
+"""Least ratio of the determinants of a block at both ends of a step longer than `CROSSING`: near a limit poses in a
+longer one cannot be interpolated. What `predictor.interpolable` still lets pass had one in 40,000 poses JUMPED."""
 
 WANTED_DEVIATION = 0.1
 """Ratio of deviation to travel that the step length is chosen for, less than half of `MAX_DEVIATION`. The deviation is
@@ -117,8 +117,6 @@ class _Attempt(NamedTuple):
     """State at the end of the step as predicted, with its inputs set."""
     along_tangent: Bool[Array, " fronts"]
     """Whether the step is predicted along the tangent, because another prediction was refused."""
-    bent: Bool[Array, " fronts"]
-    """Whether the prediction follows a curve that is far from its chord (`predictor.AGREEMENT`)."""
     sloped: Bool[Array, " fronts"]
     """Whether the prediction used a slope; if not, the predicted state is that of the beginning with new inputs."""
     travel: Float[Array, " fronts"]
@@ -142,9 +140,13 @@ def substep(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, "
     closed = closes_before_limits(status)
 
     ratio = determinant_ratio(fronts.jacobian, found.closure.jacobian, equation_blocks(system))
+    slope = input_slopes(system, found.state, found.closure, attempt.direction)
+    slope = slopes_of_branch(system, slope, ratio, fronts, found.state, attempt.moved)
+    end_slope = rate(system, found.state, slope)
     # every field of the fronts depends on the decision: XLA would compute it anew for each
     good, step = computed_once(
-        lambda moved: _decision(fronts, attempt._replace(moved=moved), found.state, closed, ratio), attempt.moved
+        lambda moved: _decision(fronts, attempt._replace(moved=moved), found.state, end_slope, closed, ratio),
+        attempt.moved,
     )
     shortest = jnp.where(fronts.at == 0, SHORTEST_FIRST_STEP, SHORTEST_STEP)
     lost = attempt.following & ~good & attempt.along_tangent & (distance <= shortest)
@@ -153,8 +155,6 @@ def substep(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, "
     entered = uncertain & closed
     final = good | uncertain
     stage = jnp.where(entered, FOLLOWING, jnp.where(lost | attempt.closing, BEYOND_LIMIT, fronts.stage))
-    slope = input_slopes(system, found.state, found.closure, attempt.direction)
-    slope = slopes_of_branch(system, slope, ratio, fronts, found.state, attempt.moved)
     last = fronts.history
     width = jnp.where(attempt.moved != 0, attempt.moved, last.width)
     earlier_width = jnp.where(fronts.has_before, last.width, jnp.inf)
@@ -192,7 +192,7 @@ def _attempt(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, 
     tangent = rate(system, fronts.state, fronts.slope)
     along_tangent = fronts.refusals % 2 == 1
     sloped = fronts.has_before | along_tangent
-    predicted, bent = predict_state(
+    predicted = predict_state(
         fronts.state,
         tangent,
         fronts.history,
@@ -204,9 +204,7 @@ def _attempt(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, 
     distance = jnp.abs(moved)
     travel = jnp.maximum(difference(predicted, fronts.state), distance)
     travel = jnp.where(sloped, travel, UNKNOWN_TRAVEL * distance)
-    return _Attempt(
-        closing, following, beyond, moved, at, direction, tangent, predicted, along_tangent, bent, sloped, travel
-    )
+    return _Attempt(closing, following, beyond, moved, at, direction, tangent, predicted, along_tangent, sloped, travel)
 
 
 def _corrected(problem: ContinuationProblem, attempt: _Attempt) -> LevenbergMarquardtResult:
@@ -233,6 +231,7 @@ def _decision(
     fronts: Fronts,
     attempt: _Attempt,
     state: State,
+    slope: State,
     closed: Bool[Array, " fronts"],
     ratio: Float[Array, "blocks fronts"],
 ) -> tuple[Bool[Array, " fronts"], Float[Array, " fronts"]]:
@@ -248,10 +247,10 @@ def _decision(
     # Extrapolate each determinant linearly. If it falls to zero within the step, the step may have passed over an
     # unreachable interval, with two changes of sign, although the signs at its ends agree.
     falls = fronts.has_before & (1 + (1 - 1 / fronts.determinant_ratio) * attempt.moved / fronts.history.width < 0)
-    crossed = jnp.any((ratio < 0) | falls, axis=0) & (distance > CROSSING)
-    crossed |= attempt.bent & jnp.any(ratio < LEAST_RATIO, axis=0)
+    crossed = jnp.any((ratio < LEAST_RATIO) | falls, axis=0) & (distance > CROSSING)
     near = deviation <= MAX_DEVIATION * attempt.travel + slack
-    good = attempt.following & closed & near & (attempt.travel <= MAX_TRAVEL) & ~crossed
+    sampled = interpolable(fronts.state, attempt.tangent, state, slope, attempt.moved) | (distance <= CROSSING)
+    good = attempt.following & closed & near & (attempt.travel <= MAX_TRAVEL) & ~crossed & sampled
     return good, _next_step(fronts, attempt, good, deviation - slack)
 
 
