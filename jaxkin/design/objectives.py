@@ -253,7 +253,9 @@ def _over_input(axes: Any, motion: Motion, joint: str) -> np.ndarray:
 
 
 def _nearest(places: Float[Array, "poses k"], targets: Float[Array, "targets k"]) -> Float[Array, "targets k"]:
-    """Find for each target the nearest point of the polyline through the places."""
+    """Find for each target the nearest point of the polyline through the places, which may be a single one."""
+    if len(places) == 1:
+        return jnp.broadcast_to(places, targets.shape)
     start, step = places[:-1], places[1:] - places[:-1]
     square = jnp.sum(step**2, axis=-1)
     along = jnp.einsum("tsk,sk->ts", targets[:, None] - start, step) / jnp.where(square > 0, square, 1.0)

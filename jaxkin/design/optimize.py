@@ -25,7 +25,7 @@ from jaxkin.design.objective import Objective
 from jaxkin.design.optimisers import LBFGS, LevenbergMarquardt, Optimiser
 from jaxkin.design.problem import HOPELESS, Problem, design_problem
 from jaxkin.design.result import Optimum, judged_range
-from jaxkin.design.search import ProgressBar, search_with_multipliers
+from jaxkin.design.search import ProgressBar, search_with_multipliers, unsearched
 from jaxkin.design.solvers import TOGETHER, Solver
 from jaxkin.design.variables import Variables, spread, variables
 from jaxkin.solve.options import SolverOptions, options_with
@@ -37,7 +37,8 @@ if TYPE_CHECKING:
 POOL = 8
 """Random designs for each start: the best of them are the starts."""
 NO_INFLUENCE = 1e-13
-"""Derivative of the loss, over the largest one, up to which a variable has no influence: rounding."""
+"""Derivative of the loss over the whole width of a variable, over the largest one or the loss itself (of a sum of
+squares, over its root), up to which the variable has no influence: rounding."""
 
 
 def optimize(
@@ -117,11 +118,14 @@ def optimize(
         _check_known(problem, *first)
     vectors, weight = _best_of(pool, verdict, starts)
     penalty = Penalty.plain(solver.penalty if solver.penalty is not None else weight, starts, constraint_count)
-    _warn_of_idle(downhill, vectors, penalty, chosen)
-
-    bar = ProgressBar(solver.iterations, progress)
-    designs, reason, history = search_with_multipliers(downhill, vectors, penalty, solver, bar)
-    bar.close()
+    least_loss = np.min(np.abs(verdict.losses[np.isfinite(verdict.losses)]), initial=np.inf)
+    size = np.sqrt(least_loss) if squares else least_loss
+    if _some_matter(downhill, vectors, penalty, chosen, size):
+        bar = ProgressBar(solver.iterations, progress)
+        designs, reason, history = search_with_multipliers(downhill, vectors, penalty, solver, bar)
+        bar.close()
+    else:
+        designs, reason, history = unsearched(downhill, vectors, constraint_count)
     losses, violations, best = designs.losses, designs.violations, designs.best
     vector = designs.vectors[best]
     motion, found, misfits = problem.motion(vector)
@@ -189,16 +193,20 @@ def _violated(gaps: list[tuple[str, Any]], margins: list[tuple[str, Any]]) -> st
     return f"{said}: give more starts, wider bounds, or a larger penalty= of the solver"
 
 
-def _warn_of_idle(downhill: Solver, vectors, penalty: Penalty, chosen: Variables) -> None:
-    """Warn of variables without influence on the loss of any start."""
+def _some_matter(downhill: Solver, vectors, penalty: Penalty, chosen: Variables, size: float) -> bool:
+    """Tell whether any variable has influence on the loss of any start, and warn of those without.
+
+    `size` is that of the loss, infinite where it is not known. What is zero already cannot fall: it warns of nothing.
+    """
     slopes = np.asarray(downhill.slopes(downhill.begin(vectors, penalty)))
-    influence = np.max(np.abs(slopes), axis=0)
+    influence, free = np.max(np.abs(slopes), axis=0), chosen.upper > chosen.lower
     # where terms cancel, as the mean does in a relative error, rounding is left of what is none
-    none = (influence <= NO_INFLUENCE * np.max(influence)) & (chosen.upper > chosen.lower)
-    idle = [name for name, without in zip(chosen.names, none, strict=True) if without]
-    if idle:
+    none = influence <= NO_INFLUENCE * max(np.max(influence), size if np.isfinite(size) else 0.0)
+    idle = [name for name, without in zip(chosen.names, none & free, strict=True) if without]
+    if idle and size > 0:
         warnings.warn(
             f"the loss does not depend on {', '.join(idle)}: the derivative is zero for every start, and "
             "nothing will change there; leave it out, or let the loss depend on it",
             stacklevel=3,
         )
+    return bool(np.any(free & ~none))

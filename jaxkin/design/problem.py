@@ -15,6 +15,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import dtypes
+from jax.extend.core import Var
 from jaxtyping import Array, Float
 
 from jaxkin._traced import written_with_jax
@@ -229,6 +230,8 @@ def design_problem(
 
         if not isinstance(loss, Objective) and function is loss:
             _check_shape(of_motion, squares, motion, extras)
+            if not constraints and _is_constant(of_motion, motion, extras):
+                raise ValueError("the loss is the same for every design: it must depend on the motion or the extras")
         called = traced(of_motion, constraint_name(function), motion, extras)
         return replace(called, function=partial(_called, function))
 
@@ -247,6 +250,16 @@ def _is_own(function: Any) -> bool:
 def _with_contacts(mechanism: Mechanism, whole: Mechanism) -> Mechanism:
     """Give a mechanism what JAX has left behind, as functions of the motion find it when they are called."""
     return replace(mechanism, contacts=whole.contacts, contacts_at_rest=whole.contacts_at_rest, bonds=whole.bonds)
+
+
+def _is_constant(function: Callable[..., Any], *given: Any) -> bool:
+    """Tell whether a function computes nothing from what it is given."""
+    operations = jax.make_jaxpr(function)(*given).jaxpr
+    known = set(operations.invars)
+    for each in operations.eqns:
+        if any(isinstance(number, Var) and number in known for number in each.invars):
+            known.update(each.outvars)
+    return not any(isinstance(number, Var) and number in known for number in operations.outvars)
 
 
 def _check_shape(loss: Callable[..., Any], squares: bool, motion: Motion, extras: Mapping[str, Any]) -> None:

@@ -73,6 +73,16 @@ def search_with_multipliers(
     return designs, reason, history
 
 
+def unsearched(
+    downhill: Solver, vectors: Float[np.ndarray, "starts variables"], constraints: int
+) -> tuple[Designs, str, list[np.ndarray]]:
+    """Judge the starts as they are: what `search_with_multipliers` returns where no variable changes anything."""
+    starts = len(vectors)
+    verdict = downhill.judge(vectors, np.zeros((starts, constraints)))
+    reason = "there was nothing to search for: no variable that may change has an influence on the loss of any start"
+    return Designs(vectors, verdict.losses, verdict.violations), reason, [np.zeros((0, starts))]
+
+
 def search(
     downhill: Solver,
     vectors: Float[np.ndarray, "starts variables"],

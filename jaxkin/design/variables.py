@@ -148,9 +148,12 @@ def variables(
     for key, bounds in by_name(lengths, "lengths", "{('coupler', 'B', 'C'): (3.0, 5.0)}").items():
         length = find_length(mechanism.linkage, key)
         (now,) = lengths_now(mechanism, [key])
-        least = 0.0 if length.quantity in ("distance", "radius") and length.quantity != "offset" else -np.inf
         found = _entry("lengths", key, _free(f"length {key!r}", bounds, now))
-        if np.any(found.lower < least) and not any(f.kind == "plane" for f in length.body):
+        signed = length.quantity in ("offset", "pitch") or any(f.kind == "plane" for f in length.body)
+        if length.quantity == "angle" and (np.any(found.lower < 0) or np.any(found.upper > np.pi)):
+            given = f"{float(found.lower):.6g} to {float(found.upper):.6g}"
+            raise ValueError(f"length {key!r}: an angle is in radians between 0 and pi, got the bounds {given}")
+        if np.any(found.lower < 0) and not signed:
             raise ValueError(f"length {key!r}: the lower bound {float(found.lower)} is negative, and a length is not")
         bounded.append(found)
     for key, bounds in by_name(points, "points", "{'A': (lower, upper)}").items():
@@ -169,7 +172,29 @@ def variables(
         raise ValueError("nothing to choose: give lengths, points, extras, or a drive with jk.design.Free")
     entries, *numbers = zip(*bounded, strict=True)
     start, lower, upper = (np.concatenate([np.ravel(each) for each in group]) for group in numbers)
-    return Variables(_tied(mechanism, entries, ties), start, lower, upper, tuple(fixed), tuple(fixed.values()))
+    entries = _tied(mechanism, entries, ties)
+    _check_ends(mechanism, entries)
+    return Variables(entries, start, lower, upper, tuple(fixed), tuple(fixed.values()))
+
+
+def _check_ends(mechanism: Mechanism, entries: Sequence[_Entry]) -> None:
+    """Refuse a length that would not be what was chosen, since a point that is a variable too moves one of its ends."""
+    keys = {
+        group: [key for each in entries if each.group == group for key in (each.key, *(key for key, _ in each.ties))]
+        for group in ("lengths", "points")
+    }
+    places = [
+        (key, locate(mechanism.linkage, key)) for key in keys["points"] if not find_profile(mechanism.linkage, key)
+    ]
+    for name in keys["lengths"]:
+        length = find_length(mechanism.linkage, name)
+        ends = [(length.body[i].joint, length.body[i].side) for i in (length.first, length.second) if length.body]
+        for key, (column, side) in places:
+            if any(column == joint and side in (None, end) for joint, end in ends):
+                raise ValueError(
+                    f"length {name!r} ends at the joint of the point {key!r}, and both are variables: the point would "
+                    "change the length that was chosen; leave out one of them"
+                )
 
 
 def _as_array(given: Any) -> Any:

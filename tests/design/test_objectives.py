@@ -42,6 +42,14 @@ def test_path(motion):
 
 
 @pytest.mark.long
+def test_the_path_of_a_single_pose_is_its_place(motion):
+    """All of a path that is one place is nearest to every target."""
+    alone = motion.mechanism.sweep({"A": np.array([0.3])})
+    place = np.asarray(alone.points("coupler", (30.0, 60.0, 0.0)))[0, :2]
+    objective = design.path("coupler", (30.0, 60.0, 0.0), place + [[3.0, 4.0], [0.0, 1.0]], timing=False)
+    assert float(objective(alone)) == pytest.approx(26.0, rel=1e-12)
+
+
 def test_function_and_dwell(motion):
     rocker = planar.fourbar(START + TURN).rocker
     wanted = rocker - rocker[0]

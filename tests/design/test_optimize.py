@@ -112,6 +112,34 @@ def test_a_variable_without_influence_is_named_and_keeps_its_value():
     assert best.values["(crank, A, B)"] == pytest.approx(30.0, rel=1e-9)
 
 
+@pytest.mark.long
+@pytest.mark.parametrize("solver", [design.LevenbergMarquardt(), design.LBFGS()], ids=str)
+def test_a_loss_that_no_variable_changes_is_not_searched(solver):
+    """Where the points of the crank are follows from the angle alone, but for rounding."""
+    objective = design.path("crank", (2.0, 1.0), np.ones((3, 2)))
+    with pytest.warns(UserWarning, match=r"the loss does not depend on \(coupler, B, C\)"):
+        best = jk.optimize(
+            objective,
+            START,
+            drive={"A": TURN[:3]},
+            lengths={COUPLER: (90.0, 150.0)},
+            solver=solver,
+        )
+    assert best.values["(coupler, B, C)"] == 110.0
+    assert best.reason.startswith("there was nothing to search for")
+    assert best.history.shape == (0, 1) and best.feasible
+    assert best.value == pytest.approx(float(objective(START.sweep({"A": TURN[:3]}))), rel=1e-12)
+    assert best.plot().axes
+
+
+@pytest.mark.long
+def test_what_is_zero_already_is_no_loss_without_variables():
+    """The transmission angle is as near to a right one as was asked for: nothing is warned of."""
+    objective = design.transmission("C", ("B", "D"), beyond=1.5)
+    best = jk.optimize(objective, START, drive={"A": TURN[:3]}, lengths={COUPLER: (109.0, 111.0)})
+    assert best.value == 0 and best.values["(coupler, B, C)"] == 110.0
+
+
 def quality(motion):
     return jnp.mean(motion.coordinates["D"] ** 2)
 
@@ -127,6 +155,14 @@ BAD = {
     "nothing": (dict(), r"nothing to choose"),
     "point": (dict(points={"Q": (-1, 1)}), r"Q"),
     "tie": (dict(lengths={CRANK: (20, 60)}, ties={ROCKER: COUPLER}), r"\('coupler', 'B', 'C'\) is no variable"),
+    "angle": (dict(lengths={(*CRANK, "angle"): (0, 7)}), r"in radians between 0 and pi, got the bounds 0 to 7"),
+    "end": (dict(lengths={COUPLER: (90, 150)}, points={"C": (0, 200)}), r"ends at the joint of the point 'C'"),
+    "tied end": (
+        dict(
+            points={("ground", "A"): (-9, 9), ROCKER[:2]: (-1e3, 1e3)}, lengths={CRANK: (9, 60)}, ties={ROCKER: CRANK}
+        ),
+        r"length \('rocker', 'C', 'D'\) ends at the joint of the point \('rocker', 'C'\)",
+    ),
     "extra": (dict(extras={"x": 3.0}), r"write jk\.design\.Free"),
     "method": (dict(lengths={CRANK: (20, 60)}, solver="newton"), r"LevenbergMarquardt\(...\) or .*, got 'newton'"),
     "starts": (dict(lengths={CRANK: (20, 60)}, starts=0), r"starts must be a whole number, 1 or more, got 0"),
@@ -145,6 +181,7 @@ def test_refusals(name):
     ("loss", "said"),
     [
         (lambda m: m.coordinates["D"], r"must return one number, got an array of shape \(24, 1\)"),
+        (lambda m: jnp.asarray(3.0), r"the loss is the same for every design: it must depend on the motion"),
         (lambda m: "good", r"must return one number, got str"),
         (
             lambda m: np.sum(np.asarray(m.coordinates["D"])),
