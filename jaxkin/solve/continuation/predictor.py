@@ -52,11 +52,11 @@ def predict_state(
     moved: Float[Array, " fronts"],
     along_tangent: Bool[Array, " fronts"],
     may_bend: Bool[Array, " fronts"],
-) -> State:
+) -> tuple[State, Bool[Array, " fronts"]]:
     """Extrapolate from `state` and its slope `tangent` by the distance `moved` along the path.
 
-    Where `along_tangent` holds, `history` is not used. Only fronts of `may_bend` follow a curve that is far from its
-    chord. The quaternions of balls are not normalised.
+    Where `along_tangent` holds, `history` is not used. The quaternions of balls are not normalised. Returns also which
+    fronts follow a curve that is far from its chord, as only those of `may_bend` do.
     """
     before, before_tangent, width, earlier_tangent, earlier_width = history
     s = moved / width
@@ -74,7 +74,8 @@ def predict_state(
     smooth = difference(curve, straight) <= SMOOTH * difference(straight, state)
     agree = may_bend & _agree(before, before_tangent, state, tangent, width)
     linear = jax.tree.map(lambda x, d: x + moved * d, state, tangent)
-    return select_poses(along_tangent, linear, select_poses(smooth | agree, curve, straight))
+    predicted = select_poses(along_tangent, linear, select_poses(smooth | agree, curve, straight))
+    return predicted, agree & ~smooth & ~along_tangent
 
 
 def hermite(

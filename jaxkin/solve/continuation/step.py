@@ -67,8 +67,8 @@ CROSSING = 1e-3
 zero. At a change point, where two branches cross, the determinant changes its sign on the branch itself. Lengths with
 relative errors of 1e-6 turn the crossing into two branches about 1e-3 apart, the root of the error."""
 LEAST_RATIO = 0.5
-"""Least ratio of the determinants of a block at both ends of a step longer than `CROSSING`: near a limit poses in a
-longer one cannot be interpolated. What `predictor.interpolable` still lets pass had one in 40,000 poses JUMPED."""
+"""Least ratio of the determinants of a block at both ends of a step that was predicted by a curve far from its chord.
+Near a limit poses in a long step cannot be interpolated: one in 34,400 of random mechanisms was JUMPED without this."""
 
 WANTED_DEVIATION = 0.1
 """Ratio of deviation to travel that the step length is chosen for, less than half of `MAX_DEVIATION`. The deviation is
@@ -117,6 +117,8 @@ class _Attempt(NamedTuple):
     """State at the end of the step as predicted, with its inputs set."""
     along_tangent: Bool[Array, " fronts"]
     """Whether the step is predicted along the tangent, because another prediction was refused."""
+    bent: Bool[Array, " fronts"]
+    """Whether the prediction follows a curve that is far from its chord (`predictor.AGREEMENT`)."""
     sloped: Bool[Array, " fronts"]
     """Whether the prediction used a slope; if not, the predicted state is that of the beginning with new inputs."""
     travel: Float[Array, " fronts"]
@@ -192,7 +194,7 @@ def _attempt(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, 
     tangent = rate(system, fronts.state, fronts.slope)
     along_tangent = fronts.refusals % 2 == 1
     sloped = fronts.has_before | along_tangent
-    predicted = predict_state(
+    predicted, bent = predict_state(
         fronts.state,
         tangent,
         fronts.history,
@@ -204,7 +206,9 @@ def _attempt(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, 
     distance = jnp.abs(moved)
     travel = jnp.maximum(difference(predicted, fronts.state), distance)
     travel = jnp.where(sloped, travel, UNKNOWN_TRAVEL * distance)
-    return _Attempt(closing, following, beyond, moved, at, direction, tangent, predicted, along_tangent, sloped, travel)
+    return _Attempt(
+        closing, following, beyond, moved, at, direction, tangent, predicted, along_tangent, bent, sloped, travel
+    )
 
 
 def _corrected(problem: ContinuationProblem, attempt: _Attempt) -> LevenbergMarquardtResult:
@@ -247,7 +251,8 @@ def _decision(
     # Extrapolate each determinant linearly. If it falls to zero within the step, the step may have passed over an
     # unreachable interval, with two changes of sign, although the signs at its ends agree.
     falls = fronts.has_before & (1 + (1 - 1 / fronts.determinant_ratio) * attempt.moved / fronts.history.width < 0)
-    crossed = jnp.any((ratio < LEAST_RATIO) | falls, axis=0) & (distance > CROSSING)
+    crossed = jnp.any((ratio < 0) | falls, axis=0) & (distance > CROSSING)
+    crossed |= attempt.bent & jnp.any(ratio < LEAST_RATIO, axis=0)
     near = deviation <= MAX_DEVIATION * attempt.travel + slack
     sampled = interpolable(fronts.state, attempt.tangent, state, slope, attempt.moved) | (distance <= CROSSING)
     good = attempt.following & closed & near & (attempt.travel <= MAX_TRAVEL) & ~crossed & sampled
