@@ -6,7 +6,6 @@ A design is a row of numbers: new values of some lengths, then offsets of some p
 from __future__ import annotations
 
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -14,7 +13,6 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jax import dtypes
 from jaxtyping import Array, Bool, Float
 
 from jaxkin._traced import written_with_jax
@@ -23,7 +21,7 @@ from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.pose import Pose
 from jaxkin.solve.device import group_for_device, on_cpu
-from jaxkin.solve.execution.cores import available_cores
+from jaxkin.solve.execution.cores import available_cores, in_threads
 from jaxkin.solve.options import SolverOptions
 
 BATCH_POSES = 1000
@@ -122,16 +120,11 @@ def evaluate(
     length = min(len(designs), max(1, group_for_device(BATCH_POSES, DEVICE_POSES) // max(poses, 1)))
     count = -(-len(designs) // length)
     padded = np.concatenate([designs, np.repeat(designs[-1:], count * length - len(designs), axis=0)])
-    x64, device = dtypes.canonicalize_dtype(float) == jnp.float64, getattr(jax.config, "jax_default_device", None)
 
     def run(batch: Float[np.ndarray, "designs numbers"]):
-        with jax.enable_x64(x64), jax.default_device(device):  # these settings are local to a thread
-            return jax.device_get(_batch(measured, mechanism, driven, batch))
+        return jax.device_get(_batch(measured, mechanism, driven, batch))
 
-    first, *others = np.split(padded, count)
-    found = [run(first)]  # compiles; the others share the program
-    with ThreadPoolExecutor(available_cores() if on_cpu() else 1, thread_name_prefix="jaxkin") as threads:
-        found += threads.map(run, others)
+    found = in_threads(run, np.split(padded, count), available_cores() if on_cpu() else 1)
     values, reached = (np.concatenate(column)[: len(designs)] for column in zip(*found, strict=True))
     reached = reached & np.isfinite(values)
     return np.where(reached, values, np.nan), reached

@@ -32,7 +32,7 @@ from jaxkin.effects.forces.given import Applied
 from jaxkin.effects.forces.joint_screws import coordinates_of_motions
 from jaxkin.effects.forces.masses import Masses
 from jaxkin.effects.forces.moving_parts import MovingParts
-from jaxkin.effects.forces.pose_groups import by_groups
+from jaxkin.effects.forces.pose_groups import by_groups, on_cores
 from jaxkin.effects.forces.potential import CarriedWeights, potential, weights_along_tree
 from jaxkin.effects.forces.screws import Wrench
 from jaxkin.effects.forces.wrenches import Loads, acting_on, loads, metres_of, units_of
@@ -153,10 +153,17 @@ def drive_forces(
         others = numbers._replace(masses=None)
         found = changes(drive, known, motion.inputs, None) if len(drive.loop_groups) > 1 else None
         return DriveForces(motion, *_at_rest(drive, linkage, known, motion.inputs, others, of_parts, found))
-    found = changes(drive, known, motion.inputs, speeds)
     frictions = loads_and_frictions(acting)[1]
     if not frictions:
-        return DriveForces(motion, *_in_motion(drive, linkage, known.status, found, speeds[0], numbers))
+
+        def of_poses(given: Any, acting: ActingNumbers) -> tuple[Inputs, Inputs]:
+            displacements, status, inputs, speeds = given
+            found = changes(drive, known._replace(displacements=displacements, status=status), inputs, speeds)
+            return _in_motion(drive, linkage, status, found, speeds[0], acting)
+
+        given = known.displacements, known.status, motion.inputs, speeds
+        return DriveForces(motion, *on_cores(of_poses, given, numbers, len(linkage.joints)))
+    found = changes(drive, known, motion.inputs, speeds)
     moving, all_loads = acting_on(drive.unit, True, linkage, found, numbers)
     all_loads, result = with_friction(motion, drive, moving, all_loads, frictions)
     forces, powers = _forces(drive, linkage, known.status, moving, all_loads, speeds[0])

@@ -32,7 +32,7 @@ from jaxkin.effects.forces.friction_result import Friction
 from jaxkin.effects.forces.given import Applied
 from jaxkin.effects.forces.masses import Masses
 from jaxkin.effects.forces.moving_parts import MovingParts
-from jaxkin.effects.forces.pose_groups import by_groups
+from jaxkin.effects.forces.pose_groups import by_groups, on_cores
 from jaxkin.effects.forces.screws import Scale, cross
 from jaxkin.effects.forces.undetermined import Undetermined, undetermined
 from jaxkin.effects.forces.wrenches import Loads, acting_on, loads, units_of
@@ -40,7 +40,7 @@ from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.units import METRES
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.mechanism.known_motion import Inputs, KnownDrive, known_motion
+from jaxkin.mechanism.known_motion import Inputs, KnownDrive, KnownMotion, known_motion
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.singularity import singular_report
 from jaxkin.solve.execution.compiler import whole_program
@@ -188,20 +188,23 @@ def reactions(
     mechanism = motion.mechanism
     drive, known = known_motion(motion)
     speeds = given_rates(motion, acting)
-    # at rest nothing is differentiated
-    if speeds is None:
-        found = unmoved(drive, known, motion.inputs)
-    else:
-        found = changes(drive, known, motion.inputs, speeds, along=False)
     linkage, numbers, result = mechanism.linkage, acting_numbers(acting), None
     if frictions := loads_and_frictions(acting)[1]:
+        found = _moved(drive, known, motion.inputs, speeds)
         moving, all_loads = acting_on(drive.unit, True, linkage, found, numbers)
         all_loads, result = with_friction(motion, drive, moving, all_loads, frictions)
         rows = _balanced(drive, linkage, known.status, moving, all_loads)
         if result is not None:
             rows = jax.tree.map(partial(_nan_where, result.locked), rows)._replace(points=rows.points)
     else:
-        rows = _without_friction(drive, linkage, known.status, found, numbers)
+
+        def of_poses(given: Any, acting: ActingNumbers) -> _JointReactions:
+            displacements, status, inputs, speeds = given
+            found = _moved(drive, known._replace(displacements=displacements, status=status), inputs, speeds)
+            return _without_friction(drive, linkage, status, found, acting)
+
+        given = known.displacements, known.status, motion.inputs, speeds
+        rows = on_cores(of_poses, given, numbers, len(linkage.joints))
 
     def named(of_joints: Sequence[Array]) -> Named[Array]:
         return Named("joint", zip(mechanism.joints, of_joints, strict=True))
@@ -209,6 +212,15 @@ def reactions(
     return Reactions(
         motion, named(rows.points), named(rows.forces), named(rows.torques), rows.drives, named(rows.held), result
     )
+
+
+def _moved(
+    drive: KnownDrive, known: KnownMotion, inputs: Mapping[str, Any], speeds: tuple[Inputs, Inputs] | None
+) -> Changes:
+    """Differentiate a motion by time; at rest, without `speeds`, nothing is differentiated."""
+    if speeds is None:
+        return unmoved(drive, known, inputs)
+    return changes(drive, known, inputs, speeds, along=False)
 
 
 def _nan_where(locked: Array, rows: Array) -> Array:

@@ -8,10 +8,11 @@ several inputs, along all poses of the range.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache, partial
 from itertools import pairwise
+from typing import Any
 
 import jax
 import jax.numpy as jnp
@@ -83,15 +84,24 @@ def run_on_cores(
     length = -(-poses // count)
     # shards of equal length share one program; the last shard therefore overlaps the one before it
     starts = [min(i * length, poses - length) for i in range(count)]
+    shards = in_threads(lambda start: function(*_shard(system, inputs, length, start)), starts, count)
+    return _joined(system, starts[-2] + length - starts[-1], shards)
+
+
+def in_threads(function: Callable[[Any], Any], each: Sequence[Any], threads: int) -> list[Any]:
+    """Apply a function to each of some arguments, as many at the same time as there are `threads`.
+
+    To the first of them it is applied in the calling thread, which compiles what all of them share.
+    """
     x64 = dtypes.canonicalize_dtype(float) == jnp.float64
     device = getattr(jax.config, "jax_default_device", None)
 
-    def run(start: int):
+    def run(one: Any) -> Any:
         with jax.enable_x64(x64), jax.default_device(device):  # these settings are local to a thread
-            return jax.block_until_ready(function(*_shard(system, inputs, length, start)))
+            return jax.block_until_ready(function(one))
 
-    first = function(*first_shard(system, inputs, count))  # compiled and started by the calling thread
-    return _joined(system, starts[-2] + length - starts[-1], [first, *_threads(count).map(run, starts[1:])])
+    first = function(each[0])
+    return [first, *_threads(threads).map(run, each[1:])]
 
 
 @partial(jax.jit, static_argnums=(0, 1))
