@@ -13,11 +13,13 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import jax.numpy as jnp
 import numpy as np
+from jax import lax
 
 from jaxkin._arguments import text
 from jaxkin._memory import once_for_each
 from jaxkin._names import nearest
 from jaxkin._traced import traced
+from jaxkin.geometry.trig import TURN
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.pairs import free, planar
@@ -199,12 +201,12 @@ def _coordinates(joint: Joint, target: Target, values: Any, size: float) -> dict
     if given.ndim != len(shape) + 1 or given.shape[1:] != shape:
         said = ", ".join(map(str, shape))
         raise ValueError(f"{target.joint}: expected an array of shape (poses, {said}), got shape {np.shape(values)}")
+    if xp is np:
+        given = _rigid_or_nan(target, given)
     frame = xp.asarray(joint.frames_1, float)[0]
     at, axes = frame[:3, 3], frame[:3, :3]
     eye = xp.broadcast_to(xp.eye(3), (len(given), 3, 3))
-    turned = {"pose": given[:, :3, :3], "point": eye, "orientation": given}[target.kind] if given.ndim == 3 else eye
-    if xp is np and np.isfinite(turned).all():
-        check_rigid(target, turned, given)
+    turned = eye if target.kind == "point" else given[:, :3, :3]
     moved = xp.zeros((len(given), 3))
     if target.kind == "pose":
         moved = given[:, :3, :3] @ at + given[:, :3, 3] - at
@@ -213,8 +215,25 @@ def _coordinates(joint: Joint, target: Target, values: Any, size: float) -> dict
     if joint.freedoms == 3:
         rows = _in_plane(target, axes, moved, turned, size, xp)
     else:
-        rows = [*moved.T, *(xp.unwrap(angle) for angle in _angles(turned, xp))]
+        rows = [*moved.T, *_unwrapped(_angles(turned, xp), xp)]
     return {joint.full_names[k]: rows[k] for k in _driven(joint, target)}
+
+
+def _rigid_or_nan(target: Target, given: np.ndarray) -> np.ndarray:
+    """Check that finite poses are rigid; ValueError where one is not. A pose with NaN or infinity is NaN as a whole."""
+    finite = np.isfinite(given).reshape(len(given), -1).all(axis=1)
+    if target.kind != "point":
+        check_rigid(target, given[finite, :3, :3], given[finite])
+    return np.where(finite.reshape(-1, *[1] * (given.ndim - 1)), given, np.nan)
+
+
+def _unwrapped(angles: Any, xp: Any) -> Any:
+    """Unwrap angles (angles, poses) from pose to pose, past poses that are NaN: these stay NaN, and spoil no other."""
+    finite = xp.isfinite(angles).all(axis=0)
+    numbered = xp.where(finite, xp.arange(len(finite)), 0)
+    held = angles[:, np.maximum.accumulate(numbered) if xp is np else lax.cummax(numbered)]
+    turns = xp.round(xp.diff(held, axis=1, prepend=held[:, :1]) / TURN)
+    return angles - TURN * xp.cumsum(xp.where(xp.isfinite(turns), turns, 0.0), axis=1)
 
 
 def check_rigid(target: Target, turned: Any, given: Any) -> None:
@@ -239,14 +258,11 @@ def _in_plane(target: Target, axes: Any, moved: Any, turned: Any, size: float, x
             f"{target.joint}: the loops move in one plane, with the normal {np.round(np.asarray(axes)[:, 2], 6)}, and "
             f"the target leaves it by {leaves:.2g} of the size of the mechanism, or radians"
         )
-    return [local[:, 0], local[:, 1], xp.unwrap(xp.arctan2(turn[:, 1, 0], turn[:, 0, 0]))]
+    return [local[:, 0], local[:, 1], *_unwrapped(xp.arctan2(turn[:, 1, 0], turn[:, 0, 0])[None], xp)]
 
 
-def _angles(turned: Any, xp: Any) -> tuple[Any, Any, Any]:
-    """Compute the angles theta, phi, psi of rotations Rz(psi) Ry(phi) Rx(theta)."""
+def _angles(turned: Any, xp: Any) -> Any:
+    """Compute the angles theta, phi, psi (3, poses) of rotations Rz(psi) Ry(phi) Rx(theta)."""
     level = xp.hypot(turned[:, 2, 1], turned[:, 2, 2])
-    return (
-        xp.arctan2(turned[:, 2, 1], turned[:, 2, 2]),
-        xp.arctan2(-turned[:, 2, 0], level),
-        xp.arctan2(turned[:, 1, 0], turned[:, 0, 0]),
-    )
+    sines = xp.stack([turned[:, 2, 1], -turned[:, 2, 0], turned[:, 1, 0]])
+    return xp.arctan2(sines, xp.stack([turned[:, 2, 2], level, turned[:, 0, 0]]))

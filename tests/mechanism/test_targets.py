@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import jaxkin as jk
+from jaxkin.mechanism.targets import with_targets
 from reference import parallel
 from reference.catalogue import delta, fivebar, hexapod
 
@@ -73,10 +74,45 @@ def test_the_arms_of_a_delta_for_places_of_its_platform():
 def test_targets_and_joints_are_driven_together():
     mechanism = fivebar()
     turned = np.linspace(0.0, 0.3, 7)
-    spun = np.stack([[[np.cos(a), -np.sin(a), 0], [np.sin(a), np.cos(a), 0], [0, 0, 1]] for a in turned])
+    spun = spins(turned, 2)
     motion = mechanism.sweep({jk.orientation("b"): spun, "A": -turned}, throw=True)
     np.testing.assert_allclose(motion.transforms["b"][:, :3, :3], spun, atol=1e-14)
     np.testing.assert_allclose(motion.coordinates["B"][:, 0], 2 * turned, atol=1e-14)  # relative to its arm
+
+
+def spins(angles, axis):
+    """Rotation matrices about an axis x, y or z (0, 1, 2)."""
+    one, other = np.delete(np.arange(3), axis)
+    found = np.tile(np.eye(3), (len(angles), 1, 1))
+    found[:, one, one] = found[:, other, other] = np.cos(angles)
+    found[:, other, one] = np.sin(angles)
+    found[:, one, other] = -found[:, other, one]
+    return found
+
+
+@pytest.mark.parametrize("make", [fivebar, delta])
+def test_a_pose_without_numbers_spoils_no_other(make):
+    """Angles count full turns past it: of a planar pair, and of a free joint."""
+    mechanism = make()
+    part = mechanism.parts[-1]
+    poses = spins(np.linspace(0.0, 15.0, 41), 2)
+    (_, whole), gone = with_targets(mechanism, {jk.orientation(part): poses}), [0, 9, 10, 40]
+    poses[gone] = np.nan
+    traced = jax.jit(lambda given: with_targets(mechanism, {jk.orientation(part): given})[1])(jnp.asarray(poses))
+    poses[gone] = np.eye(3)
+    poses[gone, 0, 1] = np.nan, np.nan, np.inf, np.nan  # one number is enough
+    _, with_gaps = with_targets(mechanism, {jk.orientation(part): poses})
+    for name, values in whole.items():
+        expected = np.where(np.isin(np.arange(41), gone), np.nan, values)
+        np.testing.assert_allclose(with_gaps[name], expected, atol=1e-14)
+        np.testing.assert_allclose(traced[name], expected, atol=1e-14)
+
+
+def test_poses_beside_one_without_numbers_are_checked():
+    poses = np.tile(np.eye(3), (4, 1, 1))
+    poses[1], poses[3] = np.nan, 2 * np.eye(3)
+    with pytest.raises(ValueError, match=r"the poses must be rigid, .* off by 3"):
+        with_targets(fivebar(), {jk.orientation("b"): poses})
 
 
 @pytest.mark.long
