@@ -197,6 +197,27 @@ def test_what_makes_no_problem_is_refused(targets, options, message):
         jk.inverse(arm(), targets, **options)
 
 
+@pytest.mark.long
+def test_joints_that_disagree_have_poses_that_misfit_as_in_a_sweep():
+    """A hinge is tilted by more than rounding: the loops that close are those of others, nearly as they were given."""
+    mechanism = jk.Mechanism.build(
+        fixed=["ground"],
+        joints=[
+            jk.revolute("A", "ground", "crank", point=(0, 0, 0), axis=Z),
+            jk.revolute("B", "crank", "rod", point=(1, 0, 0), axis=(0, 2e-4, 1)),
+            jk.revolute("C", "rod", "rocker", point=(3.2, 2.9, 0), axis=Z),
+            jk.revolute("D", "ground", "rocker", point=(4, 0, 0), axis=Z),
+        ],
+    )
+    angles = np.array([0.3, 0.6])
+    found = jk.inverse(mechanism, {"A": angles})
+    swept, projected = mechanism.sweep({"A": angles}), jk.project(mechanism, {"A": angles}, hold=["A"]).motion
+    for motion in (found.motion, swept, projected):
+        assert set(np.asarray(motion.status)) == {jk.Status.MISFIT}
+    np.testing.assert_allclose(found.motion.coordinates["D"], projected.coordinates["D"], atol=1e-9)
+    assert found.reached.all() and "do not close" not in str(found)
+
+
 def test_a_frame_without_freedoms_has_no_inverse():
     corners = {"A": ("ground", "left"), "B": ("left", "right"), "C": ("ground", "right")}
     joints = [

@@ -53,7 +53,7 @@ class Inverse:
     @property
     def reached(self) -> Bool[np.ndarray, " poses"]:
         """At which poses all targets are met."""
-        return (self.errors <= REACHED) & np.asarray(self.motion.closed)
+        return (self.errors <= REACHED) & np.asarray(self.motion.on_branch)
 
     def __str__(self) -> str:
         reached, poses = int(self.reached.sum()), len(self.errors)
@@ -68,7 +68,7 @@ class Inverse:
         lines += [f"  {name} is at a limit at {np.sum(which)} poses" for name, which in self.at_limits.items()]
         if (several := max((len(found) for found in self.solutions), default=0)) > 1:
             lines.append(f"  up to {several} solutions a pose")
-        if (lost := poses - int(np.asarray(self.motion.closed).sum())) > 0:
+        if (lost := poses - int(np.asarray(self.motion.on_branch).sum())) > 0:
             lines.append(f"  the loops do not close at {lost} poses")
         return "\n".join(lines)
 
@@ -104,9 +104,10 @@ def inverse(
       the targets, it is tried the other way round, too.
     - `iterations`: of each start, at most.
 
-    Loops are closed at every pose; its status is UNREACHABLE where they are not. Runs on the host; the balls have
-    their three angles, which are singular a quarter turn of phi from the assembled pose. Raises ValueError for names
-    that are not there, values of another shape, and inside `jit`, `vmap` and `grad`.
+    Loops are closed at every pose; its status is UNREACHABLE where they are not, and MISFIT where they are those of the
+    nearest joints that agree, because the given ones do not. Runs on the host; the balls have their three angles, which
+    are singular a quarter turn of phi from the assembled pose. Raises ValueError for names that are not there, values
+    of another shape, and inside `jit`, `vmap` and `grad`.
     """
     check_mechanism(mechanism, "inverse kinematics")
     if not isinstance(targets, Mapping) or not targets:
@@ -167,7 +168,8 @@ def _motion(
     """Make the motion whose poses were found, with the displacements of the inputs as its own."""
     q = jnp.asarray(x * problem.units)
     split = np.cumsum([joint.freedoms for joint in mechanism.all_joints])[:-1]
-    status = np.where(closure <= CLOSED, Status.CLOSED.value, Status.UNREACHABLE.value)
+    closed = Status.MISFIT if mechanism.linkage.ideal else Status.CLOSED
+    status = np.where(closure <= CLOSED, closed.value, Status.UNREACHABLE.value)
     inputs_of = {name: q[:, problem.names.index(name)] for name in inputs}
     rows = tuple(jnp.split(q, split, axis=1))
     found = jnp.asarray(status), jnp.asarray(closure)
