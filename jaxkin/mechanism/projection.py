@@ -101,7 +101,7 @@ def project(
     - `weights`: factors of the differences of coordinates; a large one moves little. 1 where none is given.
 
     It starts from what is given, not from the assembled pose: nothing says that the motion leads from one to the other,
-    and `CLOSED` means no more than that the loops close; MISFIT, that those of the nearest joints that agree do, because
+    and CLOSED means no more than that the loops close; MISFIT, that those of the nearest joints that agree do, because
     the given ones disagree. Poses that cannot be closed have the status UNREACHABLE, those with NaN or infinity
     NONFINITE. Works inside `jit`, `vmap` and `grad`; derivatives are those of the nearest pose, zero where `nearest` is
     False. Raises ValueError for a mechanism without coordinates, names that are not there, arrays of other shapes, and

@@ -119,15 +119,8 @@ def inverse(
     wanted = several(inputs or mechanism.motors or _drivable(mechanism), "inputs", "coordinates")
     if not wanted:
         raise ValueError("the mechanism has no freedom, so no target can move it; print(mechanism) says what blocks it")
-    problem = InverseProblem(mechanism, aims_of(mechanism, targets, by_name(weights or {}, "weights", "{'A': 10.0}")))
-    chosen = coordinates(mechanism.linkage, wanted)
-    for name in chosen:
-        problem.inputs[problem.column(name)] = True
-    for name, value in by_name(rest or {}, "places of rest", "{'A': 0.1}").items():
-        column = problem.column(name)
-        if not problem.inputs[column]:
-            raise ValueError(f"rest names {name!r}, which is no input; the inputs are {', '.join(chosen)}")
-        problem.rest[column] = float(one_number(value, f"the place of rest of {name!r}")) / problem.units[column]
+    chosen = [*coordinates(mechanism.linkage, wanted)]
+    problem = _problem(mechanism, targets, weights or {}, chosen, rest or {})
     bounds = problem.limits if limits else problem.unlimited
     found = [from_assembled(problem, bounds, iterations)]
     stopped = _at_limits(found[0].x, bounds) & problem.turns
@@ -142,7 +135,7 @@ def inverse(
     x = every.x[best, poses]
     at = _at_limits(x, bounds)
     return Inverse(
-        _motion(mechanism, problem, x, every.closure[best, poses], [*chosen]),
+        _motion(mechanism, problem, x, every.closure[best, poses], chosen),
         every.error[best, poses],
         every.stationary[best, poses],
         {name: at[:, column] for column, name in enumerate(problem.names) if at[:, column].any()},
@@ -153,6 +146,21 @@ def inverse(
         problem.names,
         problem.size,
     )
+
+
+def _problem(
+    mechanism: Mechanism, targets: Mapping[Any, Any], weights: Any, inputs: Sequence[str], rest: Any
+) -> InverseProblem:
+    """Make the problem of targets of known numbers, with its inputs and where these rest; ValueError as `inverse`."""
+    problem = InverseProblem(mechanism, aims_of(mechanism, targets, by_name(weights, "weights", "{'A': 10.0}")))
+    for name in inputs:
+        problem.inputs[problem.column(name)] = True
+    for name, value in by_name(rest, "places of rest", "{'A': 0.1}").items():
+        column = problem.column(name)
+        if not problem.inputs[column]:
+            raise ValueError(f"rest names {name!r}, which is no input; the inputs are {', '.join(inputs)}")
+        problem.rest[column] = float(one_number(value, f"the place of rest of {name!r}")) / problem.units[column]
+    return problem
 
 
 def _drivable(mechanism: Mechanism) -> Sequence[str]:
