@@ -255,7 +255,7 @@ class IdleMotions:
 
 def _centre(twists: Twists, noise: float) -> Float[np.ndarray, "3"] | None:
     """Find the one point about which all these twists turn; None where there is no such point or more than one."""
-    cross = np.concatenate([np.cross(np.eye(3), w).T for w in twists[:3].T])
+    cross = np.concatenate([np.zeros((0, 3)), *(np.cross(np.eye(3), w).T for w in twists[:3].T)])
     if np.linalg.matrix_rank(cross, tol=noise) < 3:
         return None
     velocities = twists[3:].T.ravel()
