@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -86,11 +85,11 @@ def with_finite_inputs(
     on_host = all(isinstance(values, np.ndarray) for values in given)
     # under `jvp` and `grad` alone the numbers are known: to look at them here saves some twenty small programs
     numbers = given if on_host else lax.stop_gradient(given)
-    if (on_host or not traced(numbers)) and all(math.isfinite(np.sum(values)) for values in numbers):
+    if (on_host or not traced(numbers)) and all(np.isfinite(np.asarray(values)).all() for values in numbers):
         return given, None
     xp = jnp if not on_host and traced(given) else np
     finite = xp.all(xp.isfinite(xp.stack(given)), axis=0)
-    if not len(finite) or (xp is np and finite.all()):
+    if not len(finite):
         return given, None
     numbered = xp.where(finite, xp.arange(len(finite)), -1)
     # `jnp.maximum.accumulate` would be a loop over the poses
@@ -116,13 +115,13 @@ def coordinate(linkage: Linkage, key: str) -> JointCoordinate:
             what = said if choices else "has no coordinate to drive"
             raise ValueError(f"joint {key!r} ({joint.kind}) {what}")
         return names.index(key), 0
-    name, _, part = key.rpartition(".")
+    name, _, own = key.rpartition(".")
     if name in names:
         joint = linkage.joints[names.index(name)]
-        if part not in joint.coordinates:
+        if own not in joint.coordinates:
             known = ", ".join(joint.coordinates) or "none"
-            raise ValueError(f"joint {name!r} ({joint.kind}) has no coordinate {part!r}; it has: {known}")
-        return names.index(name), joint.coordinates.index(part)
+            raise ValueError(f"joint {name!r} ({joint.kind}) has no coordinate {own!r}; it has: {known}")
+        return names.index(name), joint.coordinates.index(own)
     if len(pair := _pair(linkage, name or key)) > 1:
         raise ValueError(f"{key!r}: there are several joints between these parts, name one of {', '.join(pair)}")
     raise ValueError(f"there is no joint {key!r}{nearest(name if '.' in key and name else key, names)}")

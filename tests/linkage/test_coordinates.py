@@ -6,7 +6,7 @@ import pytest
 import jaxkin as jk
 from jaxkin.examples import path
 from jaxkin.joints.pairs import cylindrical
-from jaxkin.linkage.coordinates import resolve
+from jaxkin.linkage.coordinates import resolve, with_finite_inputs
 from jaxkin.solve.status import Status
 from reference.catalogue import pinned
 from reference.mechanisms import cam, planar_fourbar, rssr_linkage
@@ -52,6 +52,15 @@ def test_coordinates_that_a_chain_holds_twice_are_numbered():
     assert joint.coordinates == ("x", "y", "phi1", "phi2")
     driven = resolve(cam().linkage, {"touch.phi2": np.zeros(3)})
     assert driven["touch.phi2"].coordinate == 3
+
+
+def test_numbers_too_large_to_be_summed_are_finite_and_infinite_ones_are_not():
+    """Neither raises a warning of numpy: 1e308 + 1e308, and infinity less infinity."""
+    large = (np.array([1e308, 1e308]),)
+    assert with_finite_inputs(large) == (large, None)
+    (followed,), finite = with_finite_inputs((np.array([np.inf, 1.0, 2.0, -np.inf]),))
+    np.testing.assert_array_equal(followed, [1.0, 1.0, 2.0, 2.0])
+    np.testing.assert_array_equal(finite, [False, True, True, False])
 
 
 @pytest.mark.long
