@@ -114,7 +114,7 @@ class ContractedGraph:
             for other, _, to in around[part]:
                 if other != joint and to not in done:
                     heappush(queue, (weight + weights[other], to, (*path, other)))
-        raise AssertionError("every joint of an element with loops lies in a circuit")
+        raise AssertionError("every joint of a loop group lies in a circuit")
 
     def circuits(self, joints: Sequence[int]) -> list[Circuit]:
         """Find independent circuits of representatives through these joints, one for each joint outside a spanning

@@ -83,7 +83,7 @@ def keep_freedoms_together(
     """Merge a group that leaves coordinates undetermined with the later groups that these coordinates move.
 
     Undetermined coordinates take the values of least norm. Solved group by group, these are the values of least norm
-    over the whole element only if no later group moves with the coordinates that an earlier group leaves undetermined
+    over the whole loop group only if no later group moves with the coordinates that an earlier one leaves undetermined
     (to first order, at the pose of `screws`). Groups that need the earlier group and that the later group needs are
     merged as well.
     """

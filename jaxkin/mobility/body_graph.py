@@ -1,7 +1,7 @@
 """Describe the bodies of a loop group and the twists that joints allow between them, at one pose (host code).
 
-Parts that are welded to each other are one body. Joints outside of the element count too: they connect its bodies to
-others. Twists are (w; v) in world coordinates about the centroid, lengths over the characteristic length.
+Parts that are welded to each other are one body. Joints outside of the loop group count too: they connect its bodies
+to others. Twists are (w; v) in world coordinates about the centroid, lengths over the characteristic length.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ class BodyGraph:
         body_of = {row: rows[0] for rows in groups for row in rows}
         pairs = [(body_of[one], body_of[other]) for one, other in ends]
         self.joints: dict[tuple[str, str], list[int]] = {}
-        """(body, other body), in either order -> numbers of the joints of the element between them."""
+        """(body, other body), in either order -> numbers of the joints of the loop group between them."""
         self._hanging: dict[str, list[int]] = {}
         for index, (one, other) in enumerate(pairs):
             if one == other:
@@ -52,7 +52,7 @@ class BodyGraph:
                 self._hanging.setdefault(one, []).append(index)
                 self._hanging.setdefault(other, []).append(index)
         self.neighbours: dict[str, list[str]] = {}
-        """For each body of the element the bodies that it is joined to, without those left out."""
+        """For each body of the loop group the bodies that it is joined to, without those left out."""
         for body, other in self.joints:
             self.neighbours.setdefault(body, []).extend([] if other in left_out else [other])
         self._all_joints, self._second = joints, {index: pair[1] for index, pair in enumerate(pairs)}
@@ -60,16 +60,16 @@ class BodyGraph:
         ground = body_of[found.fixed]
         with_ground = next(bodies for bodies in connected(self.parts_of, outside) if ground in bodies)
         self.carrier = next(body for body in self.neighbours if body in with_ground)
-        """The body through which the element is connected to the fixed parts, or the body of the fixed parts."""
+        """The body through which the loop group is connected to the fixed parts, or that of the fixed parts."""
         self.movable = [body for body in self.neighbours if body != self.carrier and body not in left_out]
-        """The bodies of the element without the carrier and those left out."""
+        """The bodies of the loop group without the carrier and those left out."""
 
     def is_link(self, body: str) -> bool:
-        """Tell whether a body is movable, joined to two others, and joined to nothing outside the element."""
+        """Tell whether a body is movable, joined to two others, and to nothing outside the loop group."""
         return self.is_in_row(body) and body not in self._hanging
 
     def is_in_row(self, body: str) -> bool:
-        """Tell whether a body is movable and joined to two others within the element."""
+        """Tell whether a body is movable and joined to two others within the loop group."""
         return body in self.movable and len(self.neighbours[body]) == 2
 
     def beyond(self, link: str, before: str) -> str:
@@ -85,7 +85,7 @@ class BodyGraph:
         return self.free_of(self.forbidden(body, other))
 
     def held_outside(self, body: str) -> Constraints:
-        """Compute the constraints on the twist of a body by joints to bodies outside the element, which rest."""
+        """Compute the constraints on the twist of a body by joints to bodies outside the loop group, which rest."""
         places = self._found.places
         back = moved(inverse(next(places[row] for row in self.parts_of[body] if row in places)), np.eye(6))
         rows = [
@@ -95,7 +95,7 @@ class BodyGraph:
         return np.concatenate([np.zeros((0, 6)), *rows])
 
     def relative(self, body: str, other: str, motions: Float[np.ndarray, "motions columns"]) -> Twists:
-        """Compute a basis of the twists between two bodies that are joined to each other, in motions of the element."""
+        """Compute a basis of the twists between two bodies joined to each other, in motions of the loop group."""
         joint = self.joints[body, other][0]
         basis, sizes, _ = np.linalg.svd(self._screws(joint) @ motions[:, self._columns(joint)].T)
         return basis[:, : int((sizes > self._found.thresholds.rate).sum())]

@@ -73,7 +73,7 @@ class _Row:
 
     bodies: tuple[str, ...]
     inner: Constraints
-    """Constraints on the twist of the row by bodies that are joined to it from outside the element, and by the
+    """Constraints on the twist of the row by bodies that are joined to it from outside the loop group, and by the
     condition that the twist carries the motions between the bodies of the row into themselves."""
     ends: tuple[_End, ...]
 
@@ -97,7 +97,7 @@ class IdleMotions:
 
     @property
     def carrier(self) -> frozenset[str]:
-        """The rows of parts through which the element is connected to the fixed parts, or those of the fixed parts."""
+        """The rows of parts by which the loop group is connected to the fixed parts, or those of the fixed parts."""
         return frozenset(self._graph.parts_of[self._graph.carrier])
 
     @property

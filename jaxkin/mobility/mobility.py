@@ -158,7 +158,7 @@ def moving_columns(found: LoopFreedoms, motions: Float[np.ndarray, "n columns"])
 def drivable(linkage: Linkage, found: LoopFreedoms, driven: Sequence[int], spins: Collection[str]) -> list[int]:
     """Select columns to drive besides those `driven`, until only idle freedoms and spins of parts are left.
 
-    Joints at the part that connects the element to the fixed parts come first, and among these joints with fewer
+    Joints at the part that connects the loop group to the fixed parts come first, and among these joints with fewer
     coordinates (hinges and slides before balls). Columns in which idle motions show are selected only if all other
     columns leave a freedom that is not idle: driving such a column may move nothing but an idle part.
     """

@@ -1,4 +1,4 @@
-"""Formulas for the pose of a single loop: no iteration, one evaluation a pose.
+"""Formulas for the poses of single loops, solved one after another: no iteration, one evaluation a pose.
 
 | module | loop | unknown coordinates |
 |---|---|---|
@@ -9,6 +9,11 @@
 | `planar_derivative` | the same | their derivatives, by the screws of a pose |
 | `spherical_triangle` | turns about axes through one point: RRR | three angles |
 | `rod` | a rod between two balls, whose other joints are known but for one | one angle or displacement |
+
+`group_formulas` tells which formula a group of loops has; `solve_groups` evaluates those of all groups of a system, one
+after another, with the axes of `assembled_axes` and the products of `chain_motions`. `range_by_formula` finds the poses
+of a range, and their statuses by the proof of `branch_certificate` along the nodes of `input_line`;
+`formula_displacements` and `known_poses_by_formula` give displacements with derivatives.
 
 A loop is written as a product of displacements in world coordinates, each about its axis in the assembled pose,
 

@@ -1,6 +1,6 @@
 """Hold the fronts of the continuation: the ends of the branch traced so far, which advance in lockstep.
 
-Two fronts trace a range, one backwards and one forwards from the assembled pose; `step.reach` has one front a target.
+Two fronts trace a range, one backwards and one forwards from the assembled pose; `reach.reach` has one front a target.
 """
 
 from __future__ import annotations

@@ -1,1 +1,1 @@
-"""Solve the small linear systems of all poses at once: least norm, block after block; one algorithm a file."""
+"""Solve small linear systems, and least squares under linear constraints, at all poses: one algorithm a file."""

@@ -32,8 +32,8 @@ def solve_blocks(
 def solve_blocks_refined(jacobian: Matrix, right: Vector, damping: float, blocks: Sequence[EquationBlock]) -> Array:
     """Solve J x = r block after block at every pose, each with least norm; returns x (columns, poses).
 
-    Other than that of `solve_blocks`, the solution may be differentiated, and one step of iterative refinement removes
-    the bias of the damping.
+    Unlike that of `solve_blocks`, the solution may be differentiated, and one step of iterative refinement removes the
+    bias of the damping.
     """
     known: list[int] = []
     found = jnp.zeros((0, right.shape[1]), right.dtype)

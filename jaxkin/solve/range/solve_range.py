@@ -166,7 +166,7 @@ def _of_one_input(system: LoopSystem, options: SolverOptions, asked: _Range) -> 
 
 
 def _of_several_inputs(system: LoopSystem, options: SolverOptions, asked: _Range) -> RangePoses:
-    """Find the poses of several inputs along a curve through all poses; in a straight line where that fails."""
+    """Find the poses of several inputs along a curve through all poses; along other paths where that fails."""
     geometry, follow_limits = asked.geometry, asked.part.follow_limits
     at, path = curve_through(asked.inputs)
     at, inputs = (asked.part.of(array) for array in (at, asked.inputs))

@@ -74,7 +74,7 @@ def group_system(
     """Make the loop system of a loop group, and list its columns; `driven` are (joint, coordinate), in any order.
 
     `groups` are the sets of loops and couplings that are solved together, in order of solution, with joints and
-    couplings numbered as in the linkage; by default all loops of the structure are solved together.
+    couplings numbered as in the linkage; by default all loops of the loop group are solved together.
     """
     columns, movements, planar, _ = solved_coordinates(linkage, loop_group, driven, loop_class)
     circuits = tuple(loop for loops, _ in groups for loop in loops) or loop_group.loops
