@@ -31,7 +31,7 @@ _ROUNDING = 1e-14
 the mechanism has `SINGLE` numbers."""
 _DAMPING_FLOOR = 1e-14
 """Least damping of a step, relative to the mean square of the rows of J: the square of `RANK_TOLERANCE`, so that the
-host takes the same singular values for zero as the solver (`correctors.levenberg_marquardt.damping_floor`)."""
+host takes the same singular values for zero as the solver (`solve.linear.least_norm.damping_floor`)."""
 _LEAST_TRUST = 1e12
 """Ratio of the damping to the square of the residual above which the residual counts as stationary: even the short
 steps of so much damping do not reduce it."""

@@ -10,10 +10,11 @@ import pytest
 from jaxkin.joints.pairs import cylindrical
 from jaxkin.linkage.loop_class import LoopClass
 from jaxkin.solve.closure.closure import closure, free_jacobian, loop_geometry
-from jaxkin.solve.correctors.levenberg_marquardt import damping_floor, levenberg_marquardt
+from jaxkin.solve.correctors.levenberg_marquardt import levenberg_marquardt
 from jaxkin.solve.correctors.newton import newton
 from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.linear.blocks import solve_blocks
+from jaxkin.solve.linear.least_norm import damping_floor
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.from_linkage import group_joints, group_system

@@ -20,13 +20,12 @@ from jaxkin.solve.closure.spatial_geometry import Spatial
 from jaxkin.solve.continuation.fronts import Fronts
 from jaxkin.solve.continuation.predictor import SMOOTH, hermite
 from jaxkin.solve.continuation.step import NEAR_LIMIT
-from jaxkin.solve.correctors.levenberg_marquardt import select_poses
 from jaxkin.solve.linear.blocks import is_costly
 from jaxkin.solve.status import Status, closes_before_limits
 from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.scatter import scatter_rows
-from jaxkin.solve.system.state import State, difference, rate, retract, turning
+from jaxkin.solve.system.state import State, difference, rate, retract, select_poses, turning
 
 EXTRAPOLATED = 1e-3
 """Distance beyond the first or last sample, radians or characteristic lengths, that predictions still cover. The end of

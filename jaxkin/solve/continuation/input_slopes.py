@@ -7,8 +7,8 @@ from jaxtyping import Array, Float
 
 from jaxkin.solve.closure.closure import Closure
 from jaxkin.solve.continuation.fronts import Fronts
-from jaxkin.solve.correctors.levenberg_marquardt import damping_floor
 from jaxkin.solve.linear.blocks import solve_blocks
+from jaxkin.solve.linear.least_norm import damping_floor
 from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, driven_rate, turning

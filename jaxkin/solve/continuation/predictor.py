@@ -15,8 +15,7 @@ from typing import NamedTuple
 import jax
 from jaxtyping import Array, Bool, Float
 
-from jaxkin.solve.correctors.levenberg_marquardt import select_poses
-from jaxkin.solve.system.state import State, difference
+from jaxkin.solve.system.state import State, difference, select_poses
 
 SMOOTH = 0.25
 """Distance of a curve from its chord, over the length of the chord, above which the chord replaces the curve. At a

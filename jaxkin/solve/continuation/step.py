@@ -37,16 +37,12 @@ from jaxkin.solve.continuation.fronts import (
 )
 from jaxkin.solve.continuation.input_slopes import input_slopes, slopes_of_branch
 from jaxkin.solve.continuation.predictor import History, interpolable, predict_state
-from jaxkin.solve.correctors.levenberg_marquardt import (
-    LevenbergMarquardtResult,
-    levenberg_marquardt,
-    select_poses,
-)
+from jaxkin.solve.correctors.levenberg_marquardt import LevenbergMarquardtResult, levenberg_marquardt
 from jaxkin.solve.correctors.newton import newton
 from jaxkin.solve.lockstep import any_in_lockstep, computed_once
 from jaxkin.solve.status import Status, classify, closes_before_limits, rounding_residual
 from jaxkin.solve.system.equation_blocks import equation_blocks
-from jaxkin.solve.system.state import State, difference, drive, rate, retract
+from jaxkin.solve.system.state import State, difference, drive, rate, retract, select_poses
 
 LONGEST_STEP = 0.3
 """Longest step of the continuation, radians or characteristic lengths: a full turn takes twenty-one such steps."""

@@ -13,9 +13,9 @@ from jax import lax
 from jaxtyping import Array, Float
 
 from jaxkin.solve.closure.closure import closure
-from jaxkin.solve.correctors.levenberg_marquardt import damping_floor
 from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.linear.blocks import inverse_jacobian
+from jaxkin.solve.linear.least_norm import damping_floor
 from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.state import State, retract

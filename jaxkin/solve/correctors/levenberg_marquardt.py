@@ -10,17 +10,16 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import jax.numpy as jnp
-from jax import lax, tree
+from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from jaxkin.linkage.first_order import DOUBLE, SINGLE
 from jaxkin.solve.closure.closure import Closure, closure, free_jacobian
 from jaxkin.solve.correctors.problem import ClosureProblem
-from jaxkin.solve.linear.least_norm import solve_least_norm
+from jaxkin.solve.linear.least_norm import damping_floor, solve_least_norm
 from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.status import CLOSED_ROUNDINGS, Scalar
 from jaxkin.solve.system.loop_system import LoopSystem
-from jaxkin.solve.system.state import State, retract
+from jaxkin.solve.system.state import State, retract, select_poses
 
 MAX_DAMPED_STEP = 0.5
 """Longest step, in radians or characteristic lengths: farther away the linear model of a rotation is no longer good."""
@@ -85,11 +84,6 @@ class _Iterate(NamedTuple):
     """The step from `state` to `trial`."""
     slope: Float[Array, " poses"]
     """Slope of the merit along that step, at its beginning."""
-
-
-def damping_floor(dtype) -> float:
-    """Compute the least damping, relative to the mean square of the rows of J: the squared tolerance of the rank."""
-    return (DOUBLE if jnp.finfo(dtype).bits == 64 else SINGLE).rank ** 2
 
 
 def levenberg_marquardt(
@@ -191,8 +185,3 @@ def _range_cosine(
 def _gradient(jacobian: Float[Array, "equations columns poses"], evaluation: Closure) -> Float[Array, "columns poses"]:
     """Compute the gradient of the merit, J^T r."""
     return jnp.sum(jacobian * evaluation.residual[:, None], axis=0)
-
-
-def select_poses(mask: Bool[Array, " poses"], yes, no):
-    """Select, pose by pose, the arrays of `yes` where the mask holds and those of `no` elsewhere."""
-    return tree.map(lambda a, b: jnp.where(mask, a, b), yes, no)

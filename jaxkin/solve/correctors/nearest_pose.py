@@ -23,20 +23,15 @@ from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.solve.closure.closure import Geometry, closure, free_jacobian, scaled_geometry
 from jaxkin.solve.closure.joint_coordinates import as_state, ball_rotations, joint_coordinates
-from jaxkin.solve.correctors.levenberg_marquardt import (
-    MAX_DAMPED_STEP,
-    damping_floor,
-    levenberg_marquardt,
-    select_poses,
-)
+from jaxkin.solve.correctors.levenberg_marquardt import MAX_DAMPED_STEP, levenberg_marquardt
 from jaxkin.solve.correctors.problem import ClosureProblem
-from jaxkin.solve.linear.least_norm import solve_least_norm, solve_least_norm_refined
+from jaxkin.solve.linear.least_norm import damping_floor, solve_least_norm, solve_least_norm_refined
 from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import ClosureTolerance, classify
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
-from jaxkin.solve.system.state import Coordinates, State, matrix, multiply, rate, retract
+from jaxkin.solve.system.state import Coordinates, State, matrix, multiply, rate, retract, select_poses
 
 MAX_NEWTON_STEPS = 40
 """Steps towards the nearest pose, at most. Random states of Cassie's loops, 0.3 rad to either side, settle in 14."""

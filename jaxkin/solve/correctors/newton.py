@@ -13,13 +13,13 @@ from jax import lax
 from jaxtyping import Array, Bool, Float
 
 from jaxkin.solve.closure.closure import Closure, closure
-from jaxkin.solve.correctors.levenberg_marquardt import damping_floor, select_poses
 from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.linear.blocks import is_costly, solve_blocks
+from jaxkin.solve.linear.least_norm import damping_floor
 from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.status import CLOSED_ROUNDINGS, Scalar, default_tolerance, rounding_residual
 from jaxkin.solve.system.equation_blocks import equation_blocks
-from jaxkin.solve.system.state import State, retract
+from jaxkin.solve.system.state import State, retract, select_poses
 
 MAX_QUADRATIC_RATIO = 1e-2
 """Ratio of two residual norms below which convergence counts as quadratic. At a limit of the motion, where the Jacobian

@@ -20,6 +20,7 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
+from jaxkin.linkage.first_order import DOUBLE, SINGLE
 from jaxkin.solve.linear.cholesky import factor_cholesky
 from jaxkin.solve.linear.gauss_jordan import factor_gauss_jordan
 from jaxkin.solve.linear.gram import Damping, Matrix, Vector, mean_square
@@ -36,6 +37,11 @@ MIN_CHOLESKY_ROWS = 40
 """Number of rows from which on a library is faster than a loop, the time to load it included."""
 MAX_SELECTED_FRACTION = 0.75
 """Largest fraction of columns in use for which these are selected: to carry a few zero columns costs less than that."""
+
+
+def damping_floor(dtype) -> float:
+    """Compute the least damping, relative to the mean square of the rows of J: the squared tolerance of the rank."""
+    return (DOUBLE if jnp.finfo(dtype).bits == 64 else SINGLE).rank ** 2
 
 
 def solve_least_norm(jacobian: Matrix, right: Vector, damping: Damping, used: Sequence[int]) -> Array:

@@ -14,13 +14,13 @@ from jax import lax
 from jaxtyping import Array, Bool, Float
 
 from jaxkin.solve.continuation.fronts import ContinuationProblem
-from jaxkin.solve.correctors.levenberg_marquardt import levenberg_marquardt, select_poses
+from jaxkin.solve.correctors.levenberg_marquardt import levenberg_marquardt
 from jaxkin.solve.device import group_for_device
 from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.range.poses import MAX_CORRECTION
 from jaxkin.solve.status import Scalar, default_tolerance
 from jaxkin.solve.system.loop_system import LoopSystem
-from jaxkin.solve.system.state import State, difference, is_driven, retract
+from jaxkin.solve.system.state import State, difference, is_driven, retract, select_poses
 
 DAMPED_GROUP = 32
 """Number of poses that the damped corrector works on at once on CPUs: in most groups Newton's method leaves no more

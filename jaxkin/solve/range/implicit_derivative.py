@@ -16,8 +16,8 @@ from jax.custom_derivatives import SymbolicZero
 from jaxtyping import Array, Bool, Float
 
 from jaxkin.solve.closure.closure import Geometry, closure, free_jacobian
-from jaxkin.solve.correctors.levenberg_marquardt import damping_floor
 from jaxkin.solve.linear.blocks import solve_blocks_refined
+from jaxkin.solve.linear.least_norm import damping_floor
 from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, assembled, drive, driven_rate, rate

@@ -23,16 +23,16 @@ from jaxkin.solve.closure.joint_coordinates import remove_idle_spin
 from jaxkin.solve.continuation.branch_samples import BranchSamples, predict
 from jaxkin.solve.continuation.fronts import ContinuationProblem
 from jaxkin.solve.continuation.input_slopes import input_slopes
-from jaxkin.solve.correctors.levenberg_marquardt import damping_floor, select_poses
 from jaxkin.solve.correctors.newton import newton
 from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.linear.blocks import inverse_jacobian
+from jaxkin.solve.linear.least_norm import damping_floor
 from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.range.groups import LARGEST_GROUP, in_groups
 from jaxkin.solve.range.poses import RangePoses
 from jaxkin.solve.status import CLOSED_ROUNDINGS, default_tolerance, rounding_residual
 from jaxkin.solve.system.equation_blocks import equation_blocks
-from jaxkin.solve.system.state import State, assembled, difference, drive, rate, retract
+from jaxkin.solve.system.state import State, assembled, difference, drive, rate, retract, select_poses
 
 MAX_SEGMENTS = 256
 """Largest number of segments of a range: those of a full turn are a fortieth of a radian wide."""

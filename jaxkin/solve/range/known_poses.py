@@ -8,8 +8,7 @@ from jaxtyping import Array, Float, Int
 
 from jaxkin.solve.closure.closure import closure, free_jacobian, scaled_geometry
 from jaxkin.solve.closure.joint_coordinates import as_state
-from jaxkin.solve.correctors.levenberg_marquardt import damping_floor
-from jaxkin.solve.linear.least_norm import MAX_ALWAYS_UNROLLED_ROWS, solve_least_norm
+from jaxkin.solve.linear.least_norm import MAX_ALWAYS_UNROLLED_ROWS, damping_floor, solve_least_norm
 from jaxkin.solve.range.poses import RangePoses
 from jaxkin.solve.range.solve_range import DERIVATIVE_GROUP, displacements
 from jaxkin.solve.system.joints import Joints

@@ -21,13 +21,12 @@ from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.solve.continuation.reach import reach
 from jaxkin.solve.continuation.step import BEYOND_LIMIT_STEP
-from jaxkin.solve.correctors.levenberg_marquardt import select_poses
 from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.device import group_for_device
 from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.range.poses import MAX_CORRECTION, RangePoses
 from jaxkin.solve.status import Status
-from jaxkin.solve.system.state import State, difference
+from jaxkin.solve.system.state import State, difference, select_poses
 
 PATHS = 16
 """Number of paths that are followed together on CPUs: beside one that meets a limit, more would wait for it."""

@@ -12,7 +12,6 @@ from jaxtyping import Array, Float
 
 from jaxkin.solve.continuation.branch_samples import BranchSamples, predict
 from jaxkin.solve.continuation.fronts import ContinuationProblem
-from jaxkin.solve.correctors.levenberg_marquardt import select_poses
 from jaxkin.solve.correctors.newton import newton
 from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.range.damped_poses import correct_damped
@@ -25,7 +24,7 @@ from jaxkin.solve.status import (
     closes_before_limits,
     rounding_residual,
 )
-from jaxkin.solve.system.state import State, difference, drive
+from jaxkin.solve.system.state import State, difference, drive, select_poses
 
 
 def correct_poses(

@@ -17,12 +17,11 @@ from jax import lax
 from jaxtyping import Array, Float, Int
 
 from jaxkin.solve.closure.closure import Closure, Geometry, closure
-from jaxkin.solve.correctors.levenberg_marquardt import select_poses
 from jaxkin.solve.reference_methods.dfp import central_differences, dfp
 from jaxkin.solve.reference_methods.optional_jaxopt import jaxopt
 from jaxkin.solve.status import Scalar, Status
 from jaxkin.solve.system.loop_system import LoopSystem
-from jaxkin.solve.system.state import State, assembled, drive, retract
+from jaxkin.solve.system.state import State, assembled, drive, retract, select_poses
 
 Point = Float[Array, " used"]
 Function = Callable[[Point], Array]

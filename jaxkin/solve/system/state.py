@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float
@@ -71,6 +72,11 @@ def difference(a: State, b: State) -> Float[Array, " poses"]:
     """
     largest = jnp.max(jnp.abs(a.x - b.x), axis=0)
     return jnp.maximum(largest, 2 * jnp.max(jnp.abs(a.turns - b.turns), axis=(0, 1), initial=0.0))
+
+
+def select_poses(mask: Bool[Array, " poses"], yes, no):
+    """Select, pose by pose, the arrays of `yes` where the mask holds and those of `no` elsewhere."""
+    return jax.tree.map(lambda a, b: jnp.where(mask, a, b), yes, no)
 
 
 def drive(system: LoopSystem, state: State, inputs: Float[Array, "driven poses"]) -> State:
