@@ -31,7 +31,7 @@ from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import ClosureTolerance, classify
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
-from jaxkin.solve.system.state import Coordinates, State, matrix, multiply, rate, retract, select_poses
+from jaxkin.solve.system.state import Coordinates, State, is_driven, matrix, multiply, rate, retract, select_poses
 
 MAX_NEWTON_STEPS = 40
 """Steps towards the nearest pose, at most. Random states of Cassie's loops, 0.3 rad to either side, settle in 14."""
@@ -74,8 +74,8 @@ def nearest_poses(
     geometry, lengths = scaled_geometry(system, joints)
     begun = as_state(system, joints.frames_1, joints.frames_2, given)
     begun = begun._replace(x=begun.x / lengths)
-    problem = ClosureProblem(system, geometry, options)
-    found = _search(problem, lax.stop_gradient((geometry, begun, weights)), tolerance)
+    fixed, start, factors = lax.stop_gradient((geometry, begun, weights))
+    found = _search(ClosureProblem(system, fixed, options), start, factors, tolerance)
     state = _attach_derivative(system, geometry, begun, weights, found.state, found.settled)
     square = jnp.sum(_offset(system, begun, state, weights) ** 2, axis=0)
     rotations = ball_rotations(system, geometry, state)
@@ -98,12 +98,10 @@ class _Iterate(NamedTuple):
 
 
 def _search(
-    problem: ClosureProblem, numbers: tuple[Geometry, State, Float[Array, " columns"]], tolerance: ClosureTolerance
+    problem: ClosureProblem, begun: State, weights: Float[Array, " columns"], tolerance: ClosureTolerance
 ) -> _Found:
-    """Find the states nearest to where they begin; `numbers` are geometry, states and weights, not differentiated."""
-    system = problem.system
-    geometry, begun, weights = numbers
-    problem = ClosureProblem(system, geometry, problem.options)
+    """Find the closed states nearest to those where the search has `begun`; nothing is to be differentiated."""
+    system, geometry = problem.system, problem.geometry
     poses, dtype = begun.x.shape[-1], begun.x.dtype
 
     def running(at: _Iterate) -> Array:
@@ -224,9 +222,7 @@ def _nearest_jvp(system: LoopSystem, primals, tangents):
     v, _ = lax.scan(onward, jnp.zeros_like(off), None, length=MAX_NEWTON_STEPS)
     moves = rate(system, found, v / weights[:, None])
     # what is driven moves as it is given
-    held = jax.tree.map(jnp.zeros_like, d_begun)._replace(
-        x=jnp.where(np.isin(np.arange(system.columns), system.driven)[:, None], d_begun.x, 0.0)
-    )
+    held = jax.tree.map(jnp.zeros_like, d_begun)._replace(x=jnp.where(is_driven(system), d_begun.x, 0.0))
     d_state = jax.tree.map(jnp.add, moves, held)
     return state, jax.tree.map(lambda d: jnp.where(settled, d, 0.0), d_state)
 
