@@ -130,9 +130,9 @@ def _solve(
 ) -> tuple[Float[Array, "columns shard"], Outcome]:
     """Find poses and displacements of a shard: the program of a plain sweep."""
     count_trace()
-    part = Shard(shard_count, shard_start, follow_limits)
-    poses = find_poses(system, options, joints, inputs, tolerance, part)
-    return displacements(system, joints, part.of(inputs), poses), Outcome(poses.status, poses.residual_norm)
+    shard = Shard(shard_count, shard_start, follow_limits)
+    poses = find_poses(system, options, joints, inputs, tolerance, shard)
+    return displacements(system, joints, shard.of(inputs), poses), Outcome(poses.status, poses.residual_norm)
 
 
 def _in_order(inputs: np.ndarray, interpolate_from: int) -> tuple[np.ndarray, np.ndarray | None]:

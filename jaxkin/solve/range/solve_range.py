@@ -76,7 +76,7 @@ class _Range(NamedTuple):
     geometry: Geometry
     inputs: Float[Array, "driven poses"]
     tolerance: ClosureTolerance
-    part: Shard
+    shard: Shard
 
 
 def find_poses(
@@ -85,7 +85,7 @@ def find_poses(
     joints: Joints,
     inputs: Float[Array, "driven poses"],
     tolerance: ClosureTolerance,
-    part: Shard,
+    shard: Shard,
 ) -> RangePoses:
     """Find the poses of a range, or of one shard of it, for finite inputs, radians and lengths of the mechanism.
 
@@ -93,7 +93,7 @@ def find_poses(
     """
     joints, inputs = lax.stop_gradient((joints, inputs))
     geometry, lengths = scaled_geometry(system, joints)
-    asked = _Range(geometry, inputs / driven(system, lengths), tolerance, part)
+    asked = _Range(geometry, inputs / driven(system, lengths), tolerance, shard)
     poses = _by_method(system, options, asked)
     # correctors take what rounding leaves for closed, whatever tolerance was asked for
     rough = closes_before_limits(poses.status) & (poses.residual_norm > tolerance.max_residual)
@@ -128,7 +128,7 @@ def displacements(
 def _by_method(system: LoopSystem, options: SolverOptions, asked: _Range) -> RangePoses:
     """Find the poses by the method of the options."""
     geometry, tolerance = asked.geometry, asked.tolerance
-    inputs = asked.part.of(asked.inputs)
+    inputs = asked.shard.of(asked.inputs)
     if not system.free:
         state = drive(system, assembled(system, inputs.shape[1], inputs.dtype), inputs)
         residual_norm = closure(system, geometry, state).residual_norm
@@ -151,9 +151,9 @@ def _of_one_input(system: LoopSystem, options: SolverOptions, asked: _Range) -> 
     def identity(at: Float[Array, " fronts"]) -> tuple[Array, Array]:
         return at[None], jnp.ones_like(at)[None]
 
-    problem = ContinuationProblem(system, asked.geometry, options, identity, asked.part.follow_limits)
+    problem = ContinuationProblem(system, asked.geometry, options, identity, asked.shard.follow_limits)
     samples = trace_branch(problem, values)
-    kept = samples.complete | asked.part.follow_limits
+    kept = samples.complete | asked.shard.follow_limits
     values = jnp.where(kept, values, 0.0)
 
     def corrected(values: Float[Array, " poses"]) -> RangePoses:
@@ -162,14 +162,14 @@ def _of_one_input(system: LoopSystem, options: SolverOptions, asked: _Range) -> 
     one_by_one = partial(in_groups, corrected, size=group_size(system))
     if len(values) < options.interpolate_from or not on_cpu():
         return _stalled_unless(kept, one_by_one(values))
-    return _stalled_unless(kept, interpolate(problem, samples, values, one_by_one, asked.part.count))
+    return _stalled_unless(kept, interpolate(problem, samples, values, one_by_one, asked.shard.count))
 
 
 def _of_several_inputs(system: LoopSystem, options: SolverOptions, asked: _Range) -> RangePoses:
     """Find the poses of several inputs along a curve through all poses; along other paths where that fails."""
-    geometry, follow_limits = asked.geometry, asked.part.follow_limits
+    geometry, follow_limits = asked.geometry, asked.shard.follow_limits
     at, path = curve_through(asked.inputs)
-    at, inputs = (asked.part.of(array) for array in (at, asked.inputs))
+    at, inputs = (asked.shard.of(array) for array in (at, asked.inputs))
     problem = ContinuationProblem(system, geometry, options, path, follow_limits)
     samples = trace_branch(problem, at)
     kept = samples.complete | follow_limits
