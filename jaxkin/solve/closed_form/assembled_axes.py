@@ -16,10 +16,8 @@ from jaxkin._traced import traced
 from jaxkin.geometry.trig import TURN
 from jaxkin.solve.closure.planar import squared_off_plane
 from jaxkin.solve.system.chain_tables import AXES, chain_tables
-from jaxkin.solve.system.joints import Joints, scaled_frames
+from jaxkin.solve.system.joints import Joints, inverse_poses, scaled_frames
 from jaxkin.solve.system.loop_system import LoopSystem
-
-RigidPoses = Float[Array | np.ndarray, "chains 4 4"]
 
 
 class AssembledAxes(NamedTuple):
@@ -52,12 +50,12 @@ def assembled_axes(system: LoopSystem, joints: Joints) -> AssembledAxes:
     xp: Any = jnp if traced(joints) else np
     table = chain_tables(system)
     frames, length = scaled_frames(joints.frames_1, joints.frames_2, xp)
-    pose, poses = _inverse(frames[table.begin], xp), []
+    pose, poses = inverse_poses(frames[table.begin], xp), []
     along = np.zeros((*table.axis.shape, 4, 4))
     along[..., :3, :3], along[..., 3, 3] = AXES[table.axis], 1.0
     for enter, leave, axis in zip(table.enter, table.leave, along, strict=True):
         poses.append(pose @ frames[enter] @ axis)
-        pose = poses[-1] @ _inverse(frames[leave] @ axis, xp)
+        pose = poses[-1] @ inverse_poses(frames[leave] @ axis, xp)
     found, last = xp.stack(poses), pose @ frames[table.end]
     direction, point = found[..., :3, 2], found[..., :3, 3]
     sense = (table.sign * ((table.turn + table.slide) > 0)).astype(float)
@@ -75,10 +73,3 @@ def assembled_axes(system: LoopSystem, joints: Joints) -> AssembledAxes:
     sense = xp.where(turns, sense * xp.sign(direction @ normal), sense)
     flat = xp.einsum("ai,cij,bj->cab", plane, turn, plane)
     return AssembledAxes(direction @ plane.T, point @ plane.T, sense, advance, flat, shift @ plane.T, off_plane, length)
-
-
-def _inverse(poses: RigidPoses, xp: Any) -> RigidPoses:
-    """Invert rigid poses."""
-    turned = xp.swapaxes(poses[:, :3, :3], 1, 2)
-    moved = -xp.einsum("cij,cj->ci", turned, poses[:, :3, 3])
-    return xp.concatenate([xp.concatenate([turned, moved[..., None]], axis=-1), poses[:, 3:, :]], axis=-2)

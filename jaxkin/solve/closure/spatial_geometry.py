@@ -11,6 +11,7 @@ from jaxtyping import Array, Float
 from jaxkin.geometry.patches import FollowedSpline
 from jaxkin.solve.closure.rod_spin import Lines, spin_lines
 from jaxkin.solve.system.chain_tables import Z_AXIS, chain_tables
+from jaxkin.solve.system.joints import inverse_poses
 from jaxkin.solve.system.loop_system import LoopSystem
 
 
@@ -49,11 +50,11 @@ def spatial_geometry(
     # `AXES` moves the columns of frames round: column c is what column c + axis + 1 was
     columns = np.where(np.arange(4) < 3, (np.arange(4) + axis[..., None] + 1) % 3, 3)
     left, right = frames[which[..., None, None], np.arange(4)[:, None], columns[..., None, :]]
-    between = _inverse(left) @ right
+    between = inverse_poses(left) @ right
     own, of_distinct = frames[table.begin], frames[table.begin[table.distinct][table.same_rows_as]]
     return Spatial(
         between[:-1, table.distinct],
-        _inverse(of_distinct) @ own,
+        inverse_poses(of_distinct) @ own,
         between[-1],
         pitch,
         spin_lines(system, frames),
@@ -75,14 +76,3 @@ def _centres(system: LoopSystem, frames: Float[Array, "frames 4 4"]) -> Float[Ar
         normals = jnp.stack([jnp.cross(b, c), jnp.cross(c, a), jnp.cross(a, b)])
         centres.append((right @ normals / (a @ normals[0]))[:, None])
     return jnp.concatenate(centres, axis=1)
-
-
-def _inverse(poses: Float[Array, "*steps 4 4"]) -> Float[Array, "*steps 4 4"]:
-    """Invert rigid poses.
-
-    Joined from blocks: XLA on a CPU (jaxlib 0.10.2) gets blocks written into a product of matrices wrong where `vmap`
-    gives all of them a leading axis of one.
-    """
-    turned = jnp.swapaxes(poses[..., :3, :3], -1, -2)
-    moved = -jnp.einsum("...ij,...j->...i", turned, poses[..., :3, 3])
-    return jnp.concatenate([jnp.concatenate([turned, moved[..., None]], axis=-1), poses[..., 3:, :]], axis=-2)

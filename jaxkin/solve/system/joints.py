@@ -54,3 +54,14 @@ def scaled_frames(
         return frames.at[:-1, :3, 3].set(shift), length
     frames[:-1, :3, 3] = shift
     return frames, np.asarray(length)
+
+
+def inverse_poses(poses: Float[Array | np.ndarray, "*entries 4 4"], xp: Any = jnp) -> Any:
+    """Invert rigid poses; by `xp`, jax.numpy or numpy.
+
+    Joined from blocks: XLA on a CPU (jaxlib 0.10.2) gets blocks written into a product of matrices wrong where `vmap`
+    gives all of them a leading axis of one.
+    """
+    turned = xp.swapaxes(poses[..., :3, :3], -1, -2)
+    moved = -xp.einsum("...ij,...j->...i", turned, poses[..., :3, 3])
+    return xp.concatenate([xp.concatenate([turned, moved[..., None]], axis=-1), poses[..., 3:, :]], axis=-2)
