@@ -12,6 +12,10 @@ from jaxkin.joints.coupling import Coupling, check_couplings, shifted_coupling
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.linkage import Linkage
 
+OFFSET_ROUNDING = 1e-9
+"""Offset of a coupling, over its largest coefficient and displacement, that counts as rounding: joint positions in
+files have ten digits at most, and loops that were closed before are closed to 1e-12."""
+
 
 def coupled(linkage: Linkage, couplings: Sequence[Coupling]) -> Linkage:
     """Tie coordinates of a linkage by further couplings; ValueError as in `check_couplings`.
@@ -46,8 +50,3 @@ def counted_from(
         rounding = OFFSET_ROUNDING * np.abs(shifted.coefficients).max() * max(1.0, np.abs(at).max(initial=0.0))
         found.append(replace(shifted, offset=np.zeros(())) if abs(shifted.offset) <= rounding else shifted)
     return tuple(found)
-
-
-OFFSET_ROUNDING = 1e-9
-"""Offset of a coupling, over its largest coefficient and displacement, that counts as rounding: joint positions in
-files have ten digits at most, and loops that were closed before are closed to 1e-12."""

@@ -224,9 +224,8 @@ class ClosedLoops:
                 twists[:, self.slices[joint]] = sign * turned
                 places.setdefault(self.ends[joint][1 if sign > 0 else 0], pose)
             left = pose @ inverse(start)
-            skew = left[:3, :3] - left[:3, :3].T
             left_open.append(left)
-            misfit[:] = skew[2, 1] / 2, skew[0, 2] / 2, skew[1, 0] / 2, *left[:3, 3]
+            misfit[:] = closure_twist(left)
         for index, (joint, other) in self.ends.items():  # a coupled joint in no loop
             if joint not in places or other not in places:
                 step, own = steps[index]
@@ -255,6 +254,12 @@ class ClosedLoops:
                 jacobian[row, column] = polynomial.deriv()(at)
             residual[row] -= offset
         return residual, jacobian
+
+
+def closure_twist(displacement: Transform) -> tuple[float, ...]:
+    """Compute `vee(R - R^T)/2` of the rotation R of a displacement, then its translation: the residual of Eq. 10."""
+    turn, shift = displacement[:3, :3] - displacement[:3, :3].T, displacement[:3, 3]
+    return turn[2, 1] / 2, turn[0, 2] / 2, turn[1, 0] / 2, *shift
 
 
 def least_norm(

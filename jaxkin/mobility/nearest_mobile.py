@@ -19,7 +19,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.chains import coordinate_ranges
-from jaxkin.geometry.pose import Transform, inverse
+from jaxkin.geometry.pose import Transform, inverse, skew
 from jaxkin.joints.screws import moved
 from jaxkin.linkage.first_order import null_space
 from jaxkin.linkage.host_closure import ClosedLoops, LoopCoordinates
@@ -133,7 +133,7 @@ def _move(loops: ClosedLoops, frames: list[tuple[int, int]], twists: FrameTwists
 def _moved_frame(frame: Transform, twist: Float[np.ndarray, "6"]) -> Transform:
     """Move a frame by a small twist; its axes stay orthonormal to rounding."""
     turn, shift = twist[:3], twist[3:]
-    cross = np.array([[0, -turn[2], turn[1]], [turn[2], 0, -turn[0]], [-turn[1], turn[0], 0]])
+    cross = skew(turn)
     result = frame.copy()
     result[:3, 3] += np.cross(turn, frame[:3, 3]) + shift
     left, _, right = np.linalg.svd((np.eye(3) + cross + 0.5 * cross @ cross) @ frame[:3, :3])

@@ -11,7 +11,7 @@ from jaxkin._traced import traced
 from jaxkin.geometry.pose import apply, turned_by
 from jaxkin.joints.screws import complement, freedoms
 from jaxkin.linkage.closed_loops import closed_loops
-from jaxkin.linkage.host_closure import ClosedLoops, LoopCoordinates, Travel
+from jaxkin.linkage.host_closure import ClosedLoops, LoopCoordinates, Travel, closure_twist
 from jaxkin.linkage.linkage import Linkage
 
 
@@ -123,7 +123,6 @@ def _misfit(loops: ClosedLoops, joint: int) -> tuple[float, float]:
     The first number counts only what the joint forbids (zero if below the closure residual), the second one everything.
     """
     apart, screws = loops.chains[joint].displaced(np.zeros(freedoms(loops.chains[joint].movements)))
-    skew = apart[:3, :3] - apart[:3, :3].T
-    twist = np.array([skew[2, 1] / 2, skew[0, 2] / 2, skew[1, 0] / 2, *apart[:3, 3]])
+    twist = np.array(closure_twist(apart))
     forbidden = float(np.linalg.norm(complement(screws) @ twist)) if screws.size else float(np.linalg.norm(twist))
     return forbidden if forbidden > loops.thresholds.residual else 0.0, float(np.linalg.norm(apart - np.eye(4)))
