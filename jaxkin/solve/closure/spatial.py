@@ -19,6 +19,8 @@ The poses are the last axis of all arrays.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import jax.numpy as jnp
 import numpy as np
 from jax import lax
@@ -151,20 +153,26 @@ def cut_rotations(system: LoopSystem, geometry: Spatial, state: State) -> dict[i
     }
 
 
-def _travel(
-    system: LoopSystem, geometry: Spatial, state: State
-) -> tuple[Float[Array, "3 3 chains poses"], Float[Array, "3 chains poses"], Float[Array, "twists 6 chains poses"]]:
-    """Compute rotation [column, row] and translation of the ends of the chains, and the twist of the end by each step.
+class _StepMotions(NamedTuple):
+    """How far the steps of chains go at a state, and how fast for a unit rate of their coordinates, as travelled."""
 
-    Each of the distinct chains is travelled once, for all chains with the same rows. Rotations, translations and twists
-    are in the axes in which the distinct chain begins; translations are from the begin of each chain. Twists are
-    numbered as in `ChainTables.source`, with a zero twist behind the last one. The first twist of a coordinate that
-    drives several steps is the sum of theirs.
-    """
+    cos: Float[Array, "steps distinct poses"]
+    sin: Float[Array, "steps distinct poses"]
+    travel: Float[Array, "steps distinct poses"]
+    """Translation along z."""
+    turn: Float[np.ndarray, "steps chains 1"]
+    """Angle for a unit of the coordinate, or of the law that it follows."""
+    advance: Float[Array | np.ndarray, "steps chains 1"]
+    """Length for a unit of the same."""
+    rates: Float[Array, "steps chains poses"] | None
+    """Derivative of the law with respect to the coordinate, 1 without one; None where no step follows a law."""
+
+
+def _step_motions(system: LoopSystem, geometry: Spatial, state: State) -> _StepMotions:
+    """Evaluate the steps of the distinct chains."""
     table, poses, dtype = distinct_tables(system), state.x.shape[-1], state.x.dtype
-    turn, advance, screw, sign, side = (
-        np.asarray(entry, dtype)[..., None]
-        for entry in (table.turn, table.slide, table.screw, table.sign, table.sign * table.side)
+    turn, advance, screw, sign = (
+        np.asarray(entry, dtype)[..., None] for entry in (table.turn, table.slide, table.screw, table.sign)
     )
     if screw.any():
         advance = advance + screw * geometry.pitch[table.joint][..., None] / (2 * np.pi)
@@ -181,8 +189,24 @@ def _travel(
         lengths.append(laws.length)
         cos, sin = jnp.concatenate([cos, laws.cos]), jnp.concatenate([sin, laws.sin])
         rates = jnp.concatenate([jnp.ones((1, poses), dtype), laws.rate])[number + 1]
-    travel = jnp.asarray(advance * sign) * jnp.concatenate(lengths)[moving]
-    cos, sin = cos[place], sign * sin[place]
+    turn, advance = sign * turn, advance * sign
+    travel = jnp.asarray(advance) * jnp.concatenate(lengths)[moving]
+    return _StepMotions(cos[place], sin[place] * sign, travel, turn, advance, rates)
+
+
+def _travel(
+    system: LoopSystem, geometry: Spatial, state: State
+) -> tuple[Float[Array, "3 3 chains poses"], Float[Array, "3 chains poses"], Float[Array, "twists 6 chains poses"]]:
+    """Compute rotation [column, row] and translation of the ends of the chains, and the twist of the end by each step.
+
+    Each of the distinct chains is travelled once, for all chains with the same rows. Rotations, translations and twists
+    are in the axes in which the distinct chain begins; translations are from the begin of each chain. Twists are
+    numbered as in `ChainTables.source`, with a zero twist behind the last one. The first twist of a coordinate that
+    drives several steps is the sum of theirs.
+    """
+    table, poses, dtype = distinct_tables(system), state.x.shape[-1], state.x.dtype
+    cos, sin, travel, turn, advance, rates = _step_motions(system, geometry, state)
+    side = np.asarray(table.sign * table.side, dtype)[..., None]
     balls = _ball_turns(state, table) if system.turned_balls else None
 
     def step(carry: tuple[Rotation, Vector], given):
@@ -200,6 +224,7 @@ def _travel(
     start = first, jnp.zeros((3, count, poses), dtype)
     (rotation, point), (along, axes, points) = lax.scan(step, start, (geometry.between, cos, sin, travel, side, balls))
     shared = count < len(table.same_rows_as)
+    sign = np.asarray(table.sign, dtype)[..., None]
     if shared:
         rotation, point, along, axes, points = (
             each[..., table.same_rows_as, :] for each in (rotation, point, along, axes, points)
@@ -211,8 +236,7 @@ def _travel(
     lever = translation - points
     if shared:
         translation = translation - geometry.begin[:, :3, 3].T[..., None]
-    turned = (sign * turn)[:, None] * along
-    moved = (sign * advance)[:, None] * along
+    turned, moved = turn[:, None] * along, advance[:, None] * along
     if rates is not None:
         turned, moved = rates[:, None] * turned, rates[:, None] * moved
     moved = moved + jnp.cross(turned, lever, axis=1)
