@@ -106,12 +106,14 @@ def _finite(key: str | Target, given: np.ndarray) -> np.ndarray:
 def _weights(key: object, weight: Weight) -> tuple[float, float]:
     """Return the weights (place, orientation) of a target, equal where one number is given.
 
-    Raises ValueError for what is negative, infinite or no number.
+    Raises ValueError for what is negative, infinite or no number, and for two numbers where one of them says nothing.
     """
+    has_both = isinstance(key, Target) and key.kind == "pose"
     try:
-        both = tuple(float(each) for each in np.broadcast_to(np.asarray(weight, float), 2))
+        both = tuple(float(each) for each in np.broadcast_to(np.asarray(weight, float), 2 if has_both else ()).flat)
     except (TypeError, ValueError):
-        both = (np.nan, np.nan)
+        both = (np.nan,)
     if not all(0 <= each < np.inf for each in both):
-        raise ValueError(f"the weight of {key!r} must be zero or more, or (place, orientation), got {weight!r}")
-    return both[0], both[1]
+        choices = "zero or more, or (place, orientation)" if has_both else "one number, zero or more"
+        raise ValueError(f"the weight of {key!r} must be {choices}, got {weight!r}")
+    return both[0], both[-1]
