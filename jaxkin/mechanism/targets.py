@@ -221,7 +221,7 @@ def _coordinates(joint: Joint, target: Target, values: Any, size: float) -> dict
 
 def _rigid_or_nan(target: Target, given: np.ndarray) -> np.ndarray:
     """Check that finite poses are rigid; ValueError where one is not. A pose with NaN or infinity is NaN as a whole."""
-    finite = np.isfinite(given).reshape(len(given), -1).all(axis=1)
+    finite = np.isfinite(given).all(axis=tuple(range(1, given.ndim)))
     if target.kind != "point":
         check_rigid(target, given[finite, :3, :3], given[finite])
     return np.where(finite.reshape(-1, *[1] * (given.ndim - 1)), given, np.nan)

@@ -108,6 +108,12 @@ def test_a_pose_without_numbers_spoils_no_other(make):
         np.testing.assert_allclose(traced[name], expected, atol=1e-14)
 
 
+def test_a_range_without_poses_has_coordinates_without_poses():
+    for key in (jk.pose("platform"), jk.orientation("platform"), jk.point("platform", (0, 0, 0))):
+        _, drive = with_targets(hexapod(), {key: np.zeros((0, *key.shape))})
+        assert all(values.shape == (0,) for values in drive.values())
+
+
 def test_poses_beside_one_without_numbers_are_checked():
     poses = np.tile(np.eye(3), (4, 1, 1))
     poses[1], poses[3] = np.nan, 2 * np.eye(3)
