@@ -289,17 +289,3 @@ def test_the_body_that_carries_the_loops_is_known():
 def test_of_many_parts_that_move_idly_together_the_first_are_named():
     motion = IdleMotion(tuple(f"screw {k}" for k in range(40)), "slides", ("base", "lid"), ())
     assert str(motion).endswith("screw 4 + 35 more slide together between base and lid")
-
-
-def test_parts_in_a_row_that_pairs_of_pins_lock_are_one_bar():
-    """A four-bar whose crank is three plates: their joints allow no twist, about a point or otherwise."""
-    joints = [
-        revolute("A", "ground", "a", point=(0, 0, 0), axis=Z),
-        *(revolute(f"B{y}", "a", "b", point=(1, y, 0), axis=Z) for y in range(2)),
-        *(revolute(f"C{y}", "b", "c", point=(2, y, 0), axis=Z) for y in range(2)),
-        revolute("D", "c", "rod", point=(3, 2, 0), axis=Z),
-        revolute("E", "rod", "rocker", point=(5, 3, 0), axis=Z),
-        revolute("F", "rocker", "ground", point=(6, 0, 0), axis=Z),
-    ]
-    mobility = Mechanism.build(fixed=["ground"], joints=joints).mobility()
-    assert (mobility.freedoms, mobility.idle_motions, mobility.drivable) == (1, (), ("A.phi",))

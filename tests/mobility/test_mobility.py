@@ -263,3 +263,17 @@ def test_a_loop_of_welds_alone_has_no_freedom_and_closes():
     assert (mechanism.mobility().freedoms, mechanism.mobility().redundant) == (1, 6)
     assert np.all(mechanism.sweep({"hinge": [0.0, 1.0]}).closed)
     assert Mechanism.build(fixed=["a"], joints=welds).mobility().freedoms == 0
+
+
+def test_parts_in_a_row_that_pairs_of_pins_lock_are_one_bar():
+    """A four-bar whose crank is three plates: their joints allow no twist, about a point or otherwise."""
+    joints = [
+        revolute("A", "ground", "a", point=(0, 0, 0), axis=Z),
+        *(revolute(f"B{y}", "a", "b", point=(1, y, 0), axis=Z) for y in range(2)),
+        *(revolute(f"C{y}", "b", "c", point=(2, y, 0), axis=Z) for y in range(2)),
+        revolute("D", "c", "rod", point=(3, 2, 0), axis=Z),
+        revolute("E", "rod", "rocker", point=(5, 3, 0), axis=Z),
+        revolute("F", "rocker", "ground", point=(6, 0, 0), axis=Z),
+    ]
+    mobility = Mechanism.build(fixed=["ground"], joints=joints).mobility()
+    assert (mobility.freedoms, mobility.idle_motions, mobility.drivable) == (1, (), ("A.phi",))
