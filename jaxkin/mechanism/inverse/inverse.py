@@ -177,7 +177,7 @@ def _motion(
     q = jnp.asarray(x * problem.units)
     split = np.cumsum([joint.freedoms for joint in mechanism.all_joints])[:-1]
     closed = Status.MISFIT if mechanism.linkage.ideal else Status.CLOSED
-    status = np.where(closure <= CLOSED, closed.value, Status.UNREACHABLE.value)
+    status = np.where(closure <= CLOSED, closed.value, Status.UNREACHABLE.value).astype(np.int32)
     inputs_of = {name: q[:, problem.names.index(name)] for name in inputs}
     rows = tuple(jnp.split(q, split, axis=1))
     found = jnp.asarray(status), jnp.asarray(closure)
