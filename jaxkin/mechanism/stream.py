@@ -42,6 +42,8 @@ mechanism: a third of the longest step of the continuation."""
 SAME_PLACE = 1e-4
 """Distance of parts, radians or over the size, at which a pose that is reached in two ways is one pose. At a singular
 pose the two may differ by the root of rounding, or a higher one."""
+_KEPT = (Status.CLOSED.value, Status.MISFIT.value)
+"""Statuses of poses by which the branch is kept from chunk to chunk: no joint is beyond its limits as yet."""
 
 
 class _SharedPose(NamedTuple):
@@ -49,6 +51,7 @@ class _SharedPose(NamedTuple):
 
     displacements: tuple[Float[np.ndarray, " _"], ...]
     closed: bool
+    """Whether its loops are closed, or as nearly as the joints agree."""
 
 
 class Stream:
@@ -104,7 +107,7 @@ class Stream:
             motion = self._sweep(dict(zip(self.inputs, rows, strict=True)))
             met = _shared_pose(motion, leading - 1)
             same = last is None or not last.closed or self._same(last, met)
-            if same and not np.any(np.asarray(motion.status) != Status.CLOSED.value):
+            if same and np.isin(np.asarray(motion.status), _KEPT).all():
                 break
         return motion, leading, met, same
 
@@ -177,7 +180,7 @@ class Stream:
 
 def _shared_pose(motion: Motion, number: int) -> _SharedPose:
     displacements, status = jax.device_get(_at((motion.displacements, motion.status), number))
-    return _SharedPose(displacements, bool(status == Status.CLOSED.value))
+    return _SharedPose(displacements, status in _KEPT)
 
 
 @jax.jit
@@ -190,5 +193,6 @@ def _cut(arrays, turns: tuple[Float[Array, " _"], ...], on_branch: Bool[Array, "
     """Cut `count` poses from `first` on and add full turns to them; JUMPED where the branch was not kept."""
     inputs, displacements, status, residual = jax.tree.map(lambda array: array[first : first + count], arrays)
     displacements = tuple(each + more for each, more in zip(displacements, turns, strict=True))
-    status = jnp.where((status == Status.CLOSED.value) & ~on_branch, Status.JUMPED.value, status)
+    kept = (status == Status.CLOSED.value) | (status == Status.MISFIT.value)
+    status = jnp.where(kept & ~on_branch, Status.JUMPED.value, status)
     return inputs, displacements, status, residual

@@ -23,7 +23,7 @@ their values in any number of ways, of which a sweep tries four at most, so that
 - MISFIT in place of CLOSED: the given joints disagree, the loops were solved with the nearest joints that agree, and
   the residual of the given joints is above the tolerance (`correctors.least_residual`).
 - The worst of several loop groups: see `SEVERITY`.
-- JUMPED in place of CLOSED: an earlier chunk of a stream left the branch (`mechanism.stream`).
+- JUMPED in place of CLOSED or MISFIT: an earlier chunk of a stream left the branch (`mechanism.stream`).
 - LIMITED in place of CLOSED: a coordinate is beyond the limits of its joint (`mechanism.joint_limits`). The loops are
   closed, on the branch of the assembled pose, so that effects and derivatives are those of any closed pose.
 - NONFINITE: an input of the pose is NaN or infinite (`linkage.coordinates.with_finite_inputs` puts a finite input
