@@ -51,7 +51,8 @@ def joint_on_frames(
     `places` are the poses of the parts in the world; the origin of the world, where a part has none. Coordinates count
     from there: `limits`, which count from where the two frames agree, are moved. Frames may differ in what the joint
     forbids: then the mechanism is open in this pose, and `mechanism.close()` closes it. A universal joint has its axis
-    on part 1 along z of `frame1`, and that on part 2 along z of `frame2`.
+    on part 1 along z of `frame1`, and that on part 2 along z of `frame2`; these nowhere agree, so that its limits count
+    from this pose.
 
     `kind` is "revolute", "prismatic", "cylindrical", "planar", "spherical", "universal", "screw" or "fixed". `pitch` is
     the advance of a screw per turn, unit of the mechanism; its limits count whole turns, told by its advance. Raises

@@ -24,7 +24,7 @@ class TwoFrames(NamedTuple):
     frame_2: Transform
     values: tuple[float, ...]
     """What the frames as they were given make the coordinates there: angles in -pi to pi, that of a screw with whole
-    turns; empty for joints of which only the axes, or the point, are given."""
+    turns; empty for a ball and a universal joint, of which only the point, or the axes, are given."""
 
 
 def two_frames(kind: JointKind, first: Transform, second: Transform, pitch: float = 0.0) -> TwoFrames:
@@ -39,13 +39,11 @@ def two_frames(kind: JointKind, first: Transform, second: Transform, pitch: floa
         return TwoFrames(_at(first[:3, 3]), _at(second[:3, 3]), ())
     if kind is JointKind.UNIVERSAL:
         return TwoFrames(*_cross(first, second), ())
-    if kind is JointKind.PLANAR:
-        first = first.copy()
-        along = float((second[:3, 3] - first[:3, 3]) @ first[:3, 2])
-        first[:3, 3] = second[:3, 3] - along * first[:3, 2]
     between = inverse(first) @ second
     angle = float(np.arctan2(between[1, 0], between[0, 0]))
-    advance = float(between[2, 3])
+    x, y, advance = between[:3, 3].tolist()
+    if kind is JointKind.PLANAR:
+        first = first @ _at(np.array([x, y, 0.0]))
     if kind is JointKind.SCREW and pitch:  # its advance tells the whole turns, which frames do not
         angle += TURN * round(advance / pitch - angle / TURN)
     turns = kind in (JointKind.REVOLUTE, JointKind.CYLINDRICAL, JointKind.PLANAR, JointKind.SCREW)
@@ -57,6 +55,7 @@ def two_frames(kind: JointKind, first: Transform, second: Transform, pitch: floa
         JointKind.REVOLUTE: (angle,),
         JointKind.PRISMATIC: (advance,),
         JointKind.CYLINDRICAL: (advance, angle),
+        JointKind.PLANAR: (x, y, angle),
         JointKind.SCREW: (angle,),
     }
     return TwoFrames(first, second @ back, values.get(kind, ()))

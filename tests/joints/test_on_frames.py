@@ -61,6 +61,17 @@ def test_limits_count_from_where_the_frames_agree():
     assert mechanism.mobility().freedoms == 2  # closed: the frames differ only in what the joint leaves free
 
 
+def test_limits_of_a_plate_count_from_where_the_frames_agree():
+    """A plate that stands a turn and two slides away from its frame has so much less to go."""
+    away = turned(0.3)
+    away[:3, 3] = (2.0, -1.0, 0.0)
+    made = jk.joint_on_frames(
+        "P", "a", "b", kind="planar", frame1=np.eye(4), frame2=away, limits={"x": (-1, 3), "y": (-1, 1), "phi": (0, 1)}
+    )
+    np.testing.assert_allclose(made.limits, [(-3, 1), (0, 2), (-0.3, 0.7)], atol=1e-15)  # one difference each
+    np.testing.assert_allclose(made.frames_1, made.frames_2, atol=1e-15)  # closed
+
+
 def test_an_open_pose_is_closed():
     """The rocker stands a little off its hinge."""
     whole, _, drawn = on_frames(4)
