@@ -51,10 +51,10 @@ def load(
 
     A mechanism that `Mechanism.save` wrote (.json) comes back whole: `jk.load(path).mechanism()`.
 
-    Lengths stay as they are in the files. STEP and 3MF say their unit, GLB is in metres; for STL, OBJ and PLY, which
-    have none, `unit` says it ("mm"), and without it the unit is "". `seconds` is the processor time in which each file
-    has to be read, by default 20 s and 5 s a megabyte. `progress(done, total)` is called after each part of a STEP
-    file, and after each file of several.
+    Lengths stay as they are in the files. STEP and 3MF say their unit, GLB is in metres; for STL, OBJ, PLY and ASMT,
+    which have none, and for a mechanism that was saved without one, `unit` says it ("mm"); without it the unit is "".
+    `seconds` is the processor time in which each file has to be read, by default 20 s and 5 s a megabyte.
+    `progress(done, total)` is called after each part of a STEP file, and after each file of several.
 
     Raises FileNotFoundError where there is no such file, and ValueError where one holds no solids or is not read in
     time, where files differ in their unit, or are in another one than `unit`. Warns of damages that leave something to
@@ -63,27 +63,7 @@ def load(
     if unit is not None:
         check_unit(unit)
     if isinstance(source, str | Path):
-        path, name = Path(source), Path(source).name
-        suffix = path.suffix.lower()
-        if suffix == MECHANISM_SUFFIX:
-            saved = read_mechanism(path)
-            return Assembly((), _agreed({name: saved.unit}, unit), name, saved=saved)
-        root = read_xml(path) if suffix == XML else None
-        if suffix in ROBOT_SUFFIXES or (root is not None and root.tag in ROBOT_ROOTS):
-            parts, said, exported = read_robot(path, root, None if loops is None else Path(loops), seconds)
-            return Assembly(parts, _agreed({name: said}, unit), name, exported)
-        if loops is not None:
-            raise ValueError(f"loops is the YAML file of the loops of a robot in URDF; {name} is none")
-        if root is not None:
-            parts, said, exported = read_exported(path, root, lambda file: _read(file, seconds))
-            twice = tuple(
-                f"the parts {one.name!r} and {other.name!r} are the same solid in the same place"
-                for one, other in _twins(parts)
-            )
-            exported = replace(exported, notes=(*exported.notes, *twice))
-            return Assembly(parts, _agreed({name: said}, unit), name, exported)
-        parts, said = _read(path, seconds, progress=progress)
-        return Assembly(_without_twins(parts, name), _agreed({name: said}, unit), name)
+        return _from_file(Path(source), unit, seconds, None if loops is None else Path(loops), progress)
     if not isinstance(source, Mapping) or not source:
         raise ValueError(
             f"load reads a file by its path, or a dict of files by part, as in {{'crank': 'crank.stl'}}; got {source!r}"
@@ -92,6 +72,47 @@ def load(
         raise ValueError(
             f"loops is the YAML file of the loops of a robot in URDF; got a file for each of {len(source)} parts"
         )
+    return _from_parts(source, unit, seconds, progress)
+
+
+def _from_file(
+    path: Path,
+    unit: str | None,
+    seconds: float | None,
+    loops: Path | None,
+    progress: Callable[[int, int], None] | None,
+) -> Assembly:
+    """Load the assembly in one file; the arguments are those of `load`."""
+    name, suffix = path.name, path.suffix.lower()
+    root = read_xml(path) if suffix == XML else None
+    if suffix in ROBOT_SUFFIXES or (root is not None and root.tag in ROBOT_ROOTS):
+        parts, said, exported = read_robot(path, root, loops, seconds)
+        return Assembly(parts, _agreed({name: said}, unit), name, exported)
+    if loops is not None:
+        raise ValueError(f"loops is the YAML file of the loops of a robot in URDF; {name} is none")
+    if suffix == MECHANISM_SUFFIX:
+        saved = read_mechanism(path)
+        saved = replace(saved, unit=_agreed({name: saved.unit}, unit))
+        return Assembly((), saved.unit, name, saved=saved)
+    if root is not None:
+        parts, said, exported = read_exported(path, root, lambda file: _read(file, seconds))
+        twice = tuple(
+            f"the parts {one.name!r} and {other.name!r} are the same solid in the same place"
+            for one, other in _twins(parts)
+        )
+        exported = replace(exported, notes=(*exported.notes, *twice))
+        return Assembly(parts, _agreed({name: said}, unit), name, exported)
+    parts, said = _read(path, seconds, progress=progress)
+    return Assembly(_without_twins(parts, name), _agreed({name: said}, unit), name)
+
+
+def _from_parts(
+    source: Mapping[str, str | Path],
+    unit: str | None,
+    seconds: float | None,
+    progress: Callable[[int, int], None] | None,
+) -> Assembly:
+    """Load the assembly of one file a part; the arguments are those of `load`."""
     parts, units = [], {}
     for name, file in source.items():
         if not isinstance(file, str | Path):
@@ -145,7 +166,7 @@ def _without_twins(parts: tuple[Part, ...], source: str) -> tuple[Part, ...]:
         return parts
     first, *more = [f"{other!r} (as {one!r})" for other, one in twins.items()]
     others = f" and {len(more)} more are" if more else " is"
-    warnings.warn(f"{source}: {first}{others} the same solid in the same place as another part: left out", stacklevel=3)
+    warnings.warn(f"{source}: {first}{others} the same solid in the same place as another part: left out", stacklevel=4)
     notes: dict[str, tuple[str, ...]] = {}
     for other, one in twins.items():
         notes[one] = (*notes.get(one, ()), f"{other!r} is the same solid in the same place: left out")

@@ -35,7 +35,7 @@ class Result(Protocol):
     def save(self, path: str | Path) -> Path: ...
 
 
-def _rates(motion: Motion, **speeds: float | int) -> dict[str, Result]:
+def _rates(motion: Motion, /, **speeds: float | int) -> dict[str, Result]:
     """Compute velocities and accelerations for constant `speeds` of the drive, degrees and lengths a unit of time.
 
     Without speeds each drive moves by 1 radian, or 1 unit of length, per unit of time.

@@ -194,6 +194,12 @@ def load_study(
         loops=None if said.loops is None else place / said.loops,
         progress=progress,
     )
+    if assembly.saved is not None:
+        raise ValueError(
+            f"{path.name}: {assembly.source} holds a whole mechanism, with its joints and fixed parts, about which a "
+            f"study says nothing: give it in place of the study, as in jaxkin sweep {assembly.source} --drive ..., or "
+            f"load({assembly.source!r}).mechanism()"
+        )
     if not assembly.unit:  # formats of meshes that have none
         assembly = replace(assembly, unit=said.unit)
     if said.unit and said.unit != assembly.unit:

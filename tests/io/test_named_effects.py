@@ -169,6 +169,14 @@ def test_several_drives_need_speeds():
 
 
 @pytest.mark.long
+def test_a_joint_may_be_called_as_an_argument():
+    joints = [jk.revolute("motion", "ground", "arm", point=(0, 0, 0), axis=(0, 0, 1))]
+    motion = jk.Mechanism.build(fixed=["ground"], joints=joints).sweep({"motion": [0.0, 1.0]})
+    found = compute(motion, {"rates": {"motion": 180}})
+    np.testing.assert_allclose(found["velocities"].coordinates["motion"], np.pi, rtol=1e-15)
+
+
+@pytest.mark.long
 def test_forces_by_name(tmp_path):
     motion = study(tmp_path).sweep()
     found = compute(motion, {"forces": {"density": {"*": 7850}, "speeds": {"ground-crank": 180}}})

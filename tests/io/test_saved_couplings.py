@@ -9,6 +9,7 @@ import pytest
 import jaxkin as jk
 from jaxkin.io.study_couplings import CouplingTable
 from jaxkin.joints.coupling import COUPLINGS
+from reference import mechanisms
 
 Z = (0.0, 0.0, 1.0)
 STUDY = """
@@ -143,3 +144,15 @@ def test_a_damaged_mechanism_is_refused_and_other_words_too(tmp_path):
         jk.load(path)
     with pytest.raises(ValueError, match=r"a mechanism is saved as a .json file, got 'm.toml'"):
         linkage().save("m.toml")
+
+
+def test_words_about_a_saved_mechanism_are_taken_or_refused(tmp_path):
+    """A unit is that of its lengths where the file has none; loops belong to robots, and a study says nothing of it."""
+    path = mechanisms.planar_fourbar().save(tmp_path / "whole.json")
+    assert jk.load(path).mechanism().unit == ""
+    assert jk.load(path, unit="mm").unit == jk.load(path, unit="mm").mechanism().unit == "mm"
+    with pytest.raises(ValueError, match=r"YAML file of the loops of a robot in URDF; whole\.json is none"):
+        jk.load(path, loops=tmp_path / "loops.yaml")
+    (tmp_path / "study.toml").write_text('geometry = "whole.json"\nfixed = ["ground"]\n')
+    with pytest.raises(ValueError, match=r"study\.toml: whole\.json holds a whole mechanism.* in place of the study"):
+        jk.load_study(tmp_path / "study.toml")
