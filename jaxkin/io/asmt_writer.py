@@ -116,9 +116,11 @@ class _Writer:
         self.parts = [part for part in mechanism.parts if part != WORLD]
         self.motors = {coordinate(mechanism.linkage, motor): motor for motor in mechanism.motors}
         self.joints: list[_Written] = []
-        self.motions: list[tuple[str, str]] = []
-        """Of each motor the joint, and its coordinate there, "phi" or "z"."""
-        self.limits: list[tuple[str, str, tuple[float, float]]] = []
+        self.motions: list[tuple[int, str]] = []
+        """Of each motor the index of its joint in `joints`, and its coordinate there, "phi" or "z"."""
+        self.limits: list[tuple[int, str, tuple[float, float]]] = []
+        """The same of each limited coordinate, with its limits."""
+        self.threads: list[_Written] = []
         names = coordinate_names(mechanism.all_joints)
         taken = [each for own in names for each in own] + [joint.name for joint in mechanism.all_joints]
         for part in mechanism.fixed:
@@ -132,6 +134,7 @@ class _Writer:
                 self._one(number, joint, moved)
             else:
                 self._chain(joint, names[number], moved)
+        self.joints += self.threads  # last, as couplings: joints keep their names where others have the same
         by_name = {joint.name: joint for joint in mechanism.all_joints}
         for coupling in mechanism.linkage.couplings:
             if (found := tie(coupling, by_name, mechanism.fixed)) is None:
@@ -159,14 +162,13 @@ class _Writer:
         sides = ((joint.parts[0], first), (joint.parts[1], second))
         screw = joint.kind is JointKind.SCREW
         kind = JOINT_OF[JointKind.CYLINDRICAL if screw else joint.kind]
-        self.joints.append(_Written(kind, joint.name, sides))
         if screw:
-            self.joints.append(
-                _Written(SCREW, f"{joint.name} thread", sides, (("pitch", written(float(joint.pitch))),))
-            )
-        columns = COORDINATES.get(joint.kind, ())
-        self.motions += [(joint.name, columns[column]) for column in moved]
-        self.limits += [(joint.name, *both) for both in zip(columns, joint.limits, strict=False)]
+            pitch = ("pitch", written(float(joint.pitch)))
+            self.threads.append(_Written(SCREW, f"{joint.name} thread", sides, (pitch,)))
+        place, columns = len(self.joints), COORDINATES.get(joint.kind, ())
+        self.joints.append(_Written(kind, joint.name, sides))
+        self.motions += [(place, columns[column]) for column in moved]
+        self.limits += [(place, *both) for both in zip(columns, joint.limits, strict=bool(joint.limits))]
 
     def _chain(self, joint: Joint, names: Sequence[str], moved: Sequence[int]) -> None:
         """Write a joint as a chain of joints of one coordinate each, with parts between them."""
@@ -188,16 +190,16 @@ class _Writer:
             after = last if step == len(motions) else unique([*self.parts, f"{joint.name} link {step}"])[-1]
             self.parts += [after] if after != last else []
             frame = placed(np.eye(3) if motion.kind == BALL else along(motion.axis), motion.point)
+            place, key = len(self.joints), "z" if motion.kind == SLIDE else "phi"
             self.joints.append(_Written(SINGLE_OF[motion.kind], motion.name, ((before, frame), (after, frame))))
-            key = "z" if motion.kind == SLIDE else "phi"
-            self.motions += [(motion.name, key)] if motion.name in driven else []
-            self.limits += [(motion.name, key, motion.limits)] if motion.kind != BALL else []
+            self.motions += [(place, key)] if motion.name in driven else []
+            self.limits += [(place, key, motion.limits)] if motion.kind != BALL else []
             before = after
 
     def text(self) -> str:
         """Write the assembly, in the order that its solver reads."""
         names = unique(each.name for each in self.joints)
-        path = {each.name: f"/{self.name}/{name}" for each, name in zip(self.joints, names, strict=True)}
+        paths = [f"/{self.name}/{name}" for name in names]
         markers: dict[str, list[tuple[str, Transform]]] = {part: [] for part in (WORLD, *self.parts)}
         joints = ""
         for each, name in zip(self.joints, names, strict=True):
@@ -215,7 +217,7 @@ class _Writer:
         return (
             f"{FIRST_LINES[0]}\nAssembly\n{_node(1, 'Notes', 'written by jaxkin')}{_node(1, 'Name', self.name)}"
             f"{_place(1, np.eye(4))}{_at_rest(1)}{_markers(1, markers[WORLD])}\tParts\n{parts}\tKinematicIJs\n"
-            f"\tConstraintSets\n\t\tJoints\n{joints}\t\tMotions\n{self._motions(path)}{self._limits(path)}"
+            f"\tConstraintSets\n\t\tJoints\n{joints}\t\tMotions\n{self._motions(paths)}{self._limits(paths)}"
             f"\t\tGeneralConstraintSets\n{LAST}"
         )
 
@@ -236,15 +238,15 @@ class _Writer:
     def _path(self, part: str, marker: str) -> str:
         return f"/{self.name}/{marker}" if part == WORLD else f"/{self.name}/{part}/{marker}"
 
-    def _motions(self, path: dict[str, str]) -> str:
+    def _motions(self, paths: Sequence[str]) -> str:
         result = ""
         for number, (joint, key) in enumerate(self.motions, start=1):
             kind = MOTION_OF[key]
-            result += f"\t\t\t{kind}\n{_node(4, 'Name', f'Motion{number}')}{_node(4, 'MotionJoint', path[joint])}"
+            result += f"\t\t\t{kind}\n{_node(4, 'Name', f'Motion{number}')}{_node(4, 'MotionJoint', paths[joint])}"
             result += _node(4, EXPRESSION[kind], "0.0")
         return result
 
-    def _limits(self, path: dict[str, str]) -> str:
+    def _limits(self, paths: Sequence[str]) -> str:
         """Write the limits; no heading where there are none, since older versions of the solver know none."""
         result, number = "", 0
         for joint, key, ends in self.limits:
@@ -252,7 +254,7 @@ class _Writer:
                 if np.isfinite(bound):
                     number += 1
                     result += f"\t\t\t{LIMIT_OF[key]}\n{_node(4, 'Name', f'Limit{number}')}"
-                    result += _node(4, "MotionJoint", path[joint]) + _node(4, "Limit", written(bound))
+                    result += _node(4, "MotionJoint", paths[joint]) + _node(4, "Limit", written(bound))
                     result += _node(4, "Type", kind) + _node(4, "Tol", "1e-09")
         return f"\t\tLimits\n{result}" if result else ""
 

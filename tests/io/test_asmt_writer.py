@@ -40,6 +40,20 @@ def test_limits_and_motors_come_back(tmp_path):
     assert back.joints[first].limits == ((-1.0, 1.0),) and back.joints[second].limits == ()
 
 
+def test_a_joint_keeps_its_limits_and_motor_beside_a_coupling_and_a_thread_of_its_name(tmp_path):
+    joints = [
+        jk.revolute("A", GROUND, "a", point=(0, 0, 0), axis=Z, limits=(-1.0, 2.0)),
+        jk.screw("B", GROUND, "b", point=(3, 0, 0), axis=Z, pitch=2.0),
+        jk.revolute("B thread", GROUND, "c", point=(6, 0, 0), axis=Z, limits=(-0.5, 0.5)),
+    ]
+    gears = [jk.gear("A", "B thread", -0.5, name="A")]
+    mechanism = replace(jk.Mechanism.build(fixed=[GROUND], joints=joints, couplings=gears), motors=("A",))
+    back = written(mechanism, tmp_path).mechanism()
+    assert back.motors == ("A",) and str(back.joints["B"].kind) == "screw"
+    assert back.joints["A"].limits == ((-1.0, 2.0),) and back.joints["B thread"].limits == ((-0.5, 0.5),)
+    assert [set(each.coordinates) for each in back.linkage.couplings] == [{"A.phi", "B thread.phi"}]
+
+
 def test_the_ground_is_called_world_where_the_mechanism_has_one(tmp_path):
     arm = jk.Mechanism.build(fixed=["world"], joints=[jk.revolute("A", "world", "arm", point=(0, 0, 0), axis=Z)])
     back = written(arm, tmp_path).mechanism()
