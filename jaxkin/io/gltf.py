@@ -16,7 +16,8 @@ from jaxtyping import Float, Int
 
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.units import METRES
-from jaxkin.view.drawing import drawn_parts
+from jaxkin.io.gltf_colors import to_gltf
+from jaxkin.view.drawing import FIXED_COLOR, drawn_parts
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.motion import Motion
@@ -123,9 +124,7 @@ def _finish(tree: dict[str, Any], primitive: dict[str, Any], material: int) -> N
 
 def _material(part: Part) -> dict[str, Any]:
     """Make a material: slightly shiny; seen from both sides, since a mesh may be wound the wrong way."""
-    screen = np.array(part.color)
-    linear = np.where(screen <= 0.04045, screen / 12.92, ((screen + 0.055) / 1.055) ** 2.4)  # glTF wants sRGB undone
-    surface = {"baseColorFactor": [*linear.tolist(), 1.0], "metallicFactor": 0.1, "roughnessFactor": 0.6}
+    surface = {"baseColorFactor": to_gltf(part.color or FIXED_COLOR), "metallicFactor": 0.1, "roughnessFactor": 0.6}
     return {"name": part.name, "pbrMetallicRoughness": surface, "doubleSided": True}
 
 

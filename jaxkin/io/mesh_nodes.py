@@ -15,6 +15,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.pose import apply
+from jaxkin.io.gltf_colors import Color, from_gltf
 from jaxkin.io.mesh_check import MAX_MESH_NODES, MAX_TRIANGLES, check, is_binary_stl
 from jaxkin.io.sandbox import run_apart
 from jaxkin.io.time_limit import TimeLimit
@@ -31,7 +32,7 @@ class MeshNode:
     """Triangles that a file keeps together."""
 
     name: str
-    color: tuple[float, float, float] | None
+    color: Color | None
     corners: Float[np.ndarray, "triangles 3 3"]
     """In world coordinates, in the unit of the file."""
     vertex_resolution: float
@@ -128,7 +129,7 @@ def _nodes(path: Path, written: Path) -> list[MeshNode] | ValueError:
         entries = json.loads(str(data["about"]))
         try:
             nodes = [
-                _node(entry["name"], entry["color"], data[f"corners{k}"], data[f"pose{k}"], path.name)
+                _node(entry["name"], _color(path, entry["color"]), data[f"corners{k}"], data[f"pose{k}"], path.name)
                 for k, entry in enumerate(entries)
             ]
         except ValueError as error:
@@ -136,8 +137,15 @@ def _nodes(path: Path, written: Path) -> list[MeshNode] | ValueError:
     return nodes or ValueError(f"{path.name} holds no triangles: export the parts as solids")
 
 
+def _color(path: Path, written: list[float] | None) -> Color | None:
+    """Return the colour of a node as on the screen, which is how all formats but glTF have it."""
+    if written is None:
+        return None
+    return from_gltf(written) if path.suffix.lower() == ".glb" else (written[0], written[1], written[2])
+
+
 @np.errstate(over="ignore", invalid="ignore")  # sizes that are infinite are refused below
-def _node(name: str, color: list[float] | None, corners: np.ndarray, pose: np.ndarray, source: str) -> MeshNode:
+def _node(name: str, color: Color | None, corners: np.ndarray, pose: np.ndarray, source: str) -> MeshNode:
     corners, pose = np.asarray(corners, float), np.asarray(pose, float)
     bad = int(np.sum(~np.isfinite(corners).all(axis=(1, 2))))
     if bad or not np.all(np.isfinite(pose)):
@@ -146,9 +154,7 @@ def _node(name: str, color: list[float] | None, corners: np.ndarray, pose: np.nd
     if np.linalg.det(pose[:3, :3]) < 0:
         corners = corners[:, ::-1]
     vertex_resolution = 3e-7 * float(np.abs(corners).max() * scale.max())
-    node = MeshNode(
-        name, None if color is None else (color[0], color[1], color[2]), apply(pose, corners), vertex_resolution
-    )
+    node = MeshNode(name, color, apply(pose, corners), vertex_resolution)
     size = float(np.linalg.norm(np.ptp(node.corners.reshape(-1, 3), axis=0)))
     if size == 0:
         raise ValueError(f"{source}: all its triangles are one point: export the part as a solid")

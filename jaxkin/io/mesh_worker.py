@@ -104,7 +104,7 @@ def instances(G, source, parts: int) -> list[list]:
 
 
 def color(mesh) -> list[float] | None:
-    """Find the one colour of a mesh, red, green, blue in 0..1, if it has one."""
+    """Find the one colour of a mesh, red, green, blue in 0..1 as the file has them, if it has one."""
     material = getattr(mesh.visual, "material", None)
     value = getattr(material, "baseColorFactor", None)
     return None if value is None else [float(c) / 255 for c in value[:3]]

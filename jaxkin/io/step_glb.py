@@ -18,10 +18,9 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from jaxkin.geometry.pose import Transform
+from jaxkin.io.gltf_colors import Color, from_gltf
 from jaxkin.io.names import cleaned, unique
 from jaxkin.io.step_placements import SINGLE, FilePlacements, Placement
-
-Color = tuple[float, float, float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,15 +161,12 @@ def _array(tree: dict[str, Any], binary: bytes, index: int) -> np.ndarray:
 
 
 def _color(tree: dict[str, Any], primitives: list[dict[str, Any]]) -> tuple[Color | None, bool]:
-    """Find the colour of most triangles, from the linear light of glTF to the usual sRGB, and whether it is the only
-    one."""
+    """Find the colour of most triangles, and whether it is the only one."""
     counts: Counter[int | None] = Counter()
     for primitive in primitives:
         counts[primitive.get("material")] += tree["accessors"][primitive["indices"]]["count"]
     material = counts.most_common(1)[0][0]
     if material is None:
         return None, len(primitives) == 1
-    linear = np.array(tree["materials"][material]["pbrMetallicRoughness"]["baseColorFactor"][:3])
-    srgb = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
-    red, green, blue = np.clip(srgb, 0, 1).round(4).tolist()
-    return (red, green, blue), len(primitives) == 1
+    color = from_gltf(tree["materials"][material]["pbrMetallicRoughness"]["baseColorFactor"])
+    return color, len(primitives) == 1

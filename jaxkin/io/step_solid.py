@@ -15,8 +15,9 @@ from jaxkin.geometry.merge import merge_faces
 from jaxkin.geometry.part import Face, Part
 from jaxkin.geometry.pose import Points, Transform, apply, unit
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere, Surface
+from jaxkin.io.gltf_colors import Color
 from jaxkin.io.step_check import Defect, unsound
-from jaxkin.io.step_glb import Color, ProductMesh
+from jaxkin.io.step_glb import ProductMesh
 from jaxkin.io.step_side import Triangles, areas, points_outwards, winding
 
 _GROSS = 1e-3

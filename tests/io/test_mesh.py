@@ -132,3 +132,13 @@ def test_a_study_of_several_files(files):
     study = load_study(files / "study.toml")
     assert (study.assembly.names, study.mechanism.unit) == (NAMES, "mm")
     np.testing.assert_allclose(study.drive["cam-frame.phi"], [0, np.pi / 4, np.pi / 2])
+
+
+def test_colours_of_glb_are_of_linear_light(tmp_path):
+    """glTF has 0.2140 for what a screen shows at one half (IEC 61966-2-1)."""
+    box = trimesh.creation.box((1.0, 2.0, 3.0))
+    material = trimesh.visual.material.PBRMaterial(baseColorFactor=[0.2140, 1.0, 0.0, 1.0])
+    box.visual = trimesh.visual.TextureVisuals(material=material)
+    (tmp_path / "box.glb").write_bytes(trimesh.Scene(box).export(file_type="glb"))
+    (part,) = load(tmp_path / "box.glb").parts
+    np.testing.assert_allclose(part.color, (0.5, 1.0, 0.0), atol=3e-3)  # trimesh keeps eight bits of the linear light
