@@ -46,7 +46,7 @@ def draw_contacts(sheet: Sheet, regions: Sequence[tuple[DrawnRegion, Contact]], 
 def draw_axes(sheet: Sheet, mechanism: Mechanism, size: float, corner: Place) -> None:
     """Draw a chain line along the z axis of each joint; a dot for a ball, and no line for what cannot move at all."""
     taken: list[np.ndarray] = []
-    for index, joint in enumerate(mechanism.all_joints):
+    for joint in mechanism.all_joints:
         if not joint.freedoms:
             continue
         pose = np.asarray(joint.frames_1, float)[0]
@@ -55,7 +55,7 @@ def draw_axes(sheet: Sheet, mechanism: Mechanism, size: float, corner: Place) ->
         sheet.axes.plot(*ends.T, color="white", linewidth=3.0, zorder=5)
         sheet.axes.plot(*ends.T, zorder=6, **CHAIN)
         sheet.axes.plot(*ends.mean(axis=0), "o", color=INK, markersize=3.5, zorder=6)
-        if index < MAX_CALLOUTS:
+        if len(taken) < MAX_CALLOUTS:
             _label(sheet, ends[1] if ends[1][1] < ends[0][1] else ends[0], f"{joint.name}  {joint.kind}", taken)
 
 
