@@ -12,7 +12,7 @@ from jaxkin.mechanism.lost_contacts import LostContact
 from jaxkin.view.camera import PartTransforms, move
 
 WARNING = (0.80, 0.07, 0.12)
-"""Red of a lost contact: in no colour of the parts (`motion.drawing.PALETTE`)."""
+"""Red of a lost contact: in no colour of the parts (`jaxkin.view.drawing.PALETTE`)."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -99,7 +99,7 @@ def _returns(parts: tuple[Part, ...], sample: PartTransforms, size: float) -> bo
 def _bounds(
     parts: tuple[Part, ...], sample: PartTransforms, view: View, traces: tuple[Trace, ...]
 ) -> Float[np.ndarray, "2 3"]:
-    """List the assembled pose, a sample of poses that includes both ends, and the paths at all poses."""
+    """Find the bounds in the view of the assembled pose, of a sample of poses with both ends, and of all paths."""
     clouds = [trace.path[np.isfinite(trace.path).all(axis=1)] for trace in traces]
     for part in parts:
         corners = _extremes(part.triangles.reshape(-1, 3))
