@@ -9,8 +9,8 @@ from jaxtyping import Float, Int
 
 from jaxkin._names import listed
 from jaxkin.contacts.boxes import Boxes, Pairs, boxes_of, crossing
-from jaxkin.contacts.overlap import SolidTriangles
 from jaxkin.geometry.part import Part
+from jaxkin.geometry.triangles import Triangles
 
 TINY = np.finfo(float).tiny
 """Smallest denominator: avoids 0 / 0 for degenerate triangles, which tessellations contain."""
@@ -51,7 +51,7 @@ def edge_note(one: Part, two: Part, tolerance: float) -> str | None:
 class _Side(NamedTuple):
     """The triangles of a part."""
 
-    triangles: SolidTriangles
+    triangles: Triangles
     faces: Int[np.ndarray, " triangles"]
     """The index of the face of each triangle."""
     bulges: Float[np.ndarray, " triangles"]
@@ -81,7 +81,7 @@ def _nearest(one: _Side, two: _Side, tolerance: float) -> tuple[int, int] | None
     return (int(pairs[best, 0]), int(pairs[best, 1])) if least <= tolerance else None
 
 
-def _least_distances(one: SolidTriangles, two: SolidTriangles, pairs: Pairs) -> Float[np.ndarray, " pairs"]:
+def _least_distances(one: Triangles, two: Triangles, pairs: Pairs) -> Float[np.ndarray, " pairs"]:
     """Compute lower bounds of the distances between pairs of triangles, by their indices in `one` and in `two`.
 
     Each triangle has a box of its own, along its longest side and across its plane, which a thin triangle fills as it
@@ -96,19 +96,19 @@ def _least_distances(one: SolidTriangles, two: SolidTriangles, pairs: Pairs) -> 
     return result - _ROUNDING * max((float(np.abs(side).max()) for side in (one, two) if len(side)), default=0.0)
 
 
-def _apart(a: SolidTriangles, b: SolidTriangles, frames: Float[np.ndarray, "pairs 3 3"]) -> Float[np.ndarray, " pairs"]:
+def _apart(a: Triangles, b: Triangles, frames: Float[np.ndarray, "pairs 3 3"]) -> Float[np.ndarray, " pairs"]:
     """Compute the distances between the boxes of two triangles along the columns of a frame, pair by pair."""
     (low1, high1), (low2, high2) = _ends(a @ frames), _ends(b @ frames)
     return np.linalg.norm(np.maximum(np.maximum(low2 - high1, low1 - high2), 0.0), axis=-1)
 
 
-def _ends(corners: SolidTriangles) -> tuple[Float[np.ndarray, "_ 3"], Float[np.ndarray, "_ 3"]]:
+def _ends(corners: Triangles) -> tuple[Float[np.ndarray, "_ 3"], Float[np.ndarray, "_ 3"]]:
     """Find the lowest and the highest coordinates of triangles; by pairs, since reductions over three are slow."""
     first, second, third = corners[:, 0], corners[:, 1], corners[:, 2]
     return np.minimum(np.minimum(first, second), third), np.maximum(np.maximum(first, second), third)
 
 
-def _frames(triangles: SolidTriangles) -> Float[np.ndarray, "triangles 3 3"]:
+def _frames(triangles: Triangles) -> Float[np.ndarray, "triangles 3 3"]:
     """Find unit vectors along the longest side of each triangle, across that in its plane, and across its plane.
 
     They are the columns of (triangles, 3, 3); those that a degenerate triangle lacks are zero, and tell no distance.
@@ -123,7 +123,7 @@ def _frames(triangles: SolidTriangles) -> Float[np.ndarray, "triangles 3 3"]:
     return np.stack([along, np.cross(across, along), across], axis=-1)
 
 
-def distances(a: SolidTriangles, b: SolidTriangles) -> Float[np.ndarray, "_"]:
+def distances(a: Triangles, b: Triangles) -> Float[np.ndarray, "_"]:
     """Compute the distance between the two triangles of each pair (pairs,), from `a` and `b` (pairs, 3, 3).
 
     It is the least distance of a corner from the other triangle, or of two crossing edges; so it is not zero for
@@ -132,7 +132,7 @@ def distances(a: SolidTriangles, b: SolidTriangles) -> Float[np.ndarray, "_"]:
     return np.min([_corners_to(a, b), _corners_to(b, a), _crossing_edges(a, b)], axis=0)
 
 
-def _corners_to(a: SolidTriangles, b: SolidTriangles) -> np.ndarray:
+def _corners_to(a: Triangles, b: Triangles) -> np.ndarray:
     """Compute the distance of the nearest corner of `a` from the triangle `b`, pair by pair."""
     edges = np.roll(b, -1, axis=1) - b
     offset = a[:, :, None] - b[:, None]  # pair, corner of a, edge of b
@@ -144,7 +144,7 @@ def _corners_to(a: SolidTriangles, b: SolidTriangles) -> np.ndarray:
     return np.where(over, height, to_edges).min(axis=-1)
 
 
-def _crossing_edges(a: SolidTriangles, b: SolidTriangles) -> np.ndarray:
+def _crossing_edges(a: Triangles, b: Triangles) -> np.ndarray:
     """Compute the least distance of an edge of `a` and an edge of `b` that cross each other, seen along their common
     normal, pair by pair; infinity where none do."""
     u, v = (np.roll(a, -1, axis=1) - a)[:, :, None], (np.roll(b, -1, axis=1) - b)[:, None]

@@ -15,11 +15,10 @@ from jaxtyping import Float
 
 from jaxkin.contacts.boxes import boxes_of, crossing
 from jaxkin.geometry.pose import Vector
+from jaxkin.geometry.triangles import Triangles
 
 Flat = Float[np.ndarray, "_ 3 2"]
 """Corners of triangles in a chart."""
-SolidTriangles = Float[np.ndarray, "_ 3 3"]
-"""Corners of triangles in space."""
 
 _MAX_PAIRS = 50_000
 """Number of pairs of triangles intersected at once: bounds the memory."""
@@ -50,7 +49,7 @@ class Overlap:
         return float(np.linalg.norm(self.box[1] - self.box[0]))
 
 
-def flat(triangles: SolidTriangles, origin: Vector, x: Vector, y: Vector) -> Flat:
+def flat(triangles: Triangles, origin: Vector, x: Vector, y: Vector) -> Flat:
     """Project triangles onto a plane: coordinates from `origin` along the unit vectors `x` and `y`."""
     return np.stack([(triangles - origin) @ x, (triangles - origin) @ y], axis=-1)
 
@@ -65,7 +64,7 @@ def overlap(first: Flat, second: Flat, tolerance: float) -> Overlap | None:
 
 
 def overlap_on_sphere(
-    first: SolidTriangles, second: SolidTriangles, centre: Vector, radius: float, tolerance: float
+    first: Triangles, second: Triangles, centre: Vector, radius: float, tolerance: float
 ) -> Overlap | None:
     """Compute what two sets of triangles on a sphere share; None if they are farther apart than `tolerance`, a length.
 
@@ -94,7 +93,7 @@ def overlap_on_sphere(
     return _sum(areas, lifted(middles[:, None])[:, 0], lifted(corners), shared)
 
 
-def _bulging_boxes(triangles: SolidTriangles) -> Float[np.ndarray, "triangles 2 3"]:
+def _bulging_boxes(triangles: Triangles) -> Float[np.ndarray, "triangles 2 3"]:
     """Compute boxes around the parts of the unit sphere over triangles with corners on it.
 
     A triangle lies in a circle of its longest edge over sqrt(3) (Jung 1901), over which the sphere bulges by its

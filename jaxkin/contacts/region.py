@@ -15,13 +15,14 @@ import numpy as np
 
 from jaxkin.contacts import intervals
 from jaxkin.contacts.intervals import Intervals
-from jaxkin.contacts.overlap import Overlap, SolidTriangles, flat, overlap, overlap_on_sphere
+from jaxkin.contacts.overlap import Overlap, flat, overlap, overlap_on_sphere
 from jaxkin.contacts.rim import Difference, chord_height
 from jaxkin.contacts.touch import Touch
 from jaxkin.contacts.unrolled import shorter_way, turned, unrolled, unrolled_difference
 from jaxkin.geometry.part import Face
 from jaxkin.geometry.pose import Vector, perpendicular
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere
+from jaxkin.geometry.triangles import Triangles
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +82,7 @@ def _surface(touch: Touch, face1: Face, face2: Face, tolerance: float) -> Contac
     return None
 
 
-def _is_wide(shared: Overlap, a: SolidTriangles, b: SolidTriangles, between: Difference, tolerance: float) -> bool:
+def _is_wide(shared: Overlap, a: Triangles, b: Triangles, between: Difference, tolerance: float) -> bool:
     """Check that an overlap is wider than the slivers that noise and chords of two tessellations leave at an edge."""
     width = shared.area / max(shared.extent, tolerance)
     if width > 0.1 * shared.extent:

@@ -7,8 +7,8 @@ from collections.abc import Callable
 import numpy as np
 from jaxtyping import Float, Int
 
-from jaxkin.contacts.overlap import SolidTriangles
 from jaxkin.geometry.pose import Points
+from jaxkin.geometry.triangles import Triangles
 
 Difference = Callable[[Points, Points], np.ndarray]
 """Function (ends, starts) of points (_, 3) that gives the vectors from the starts to the ends, in space (_, 3) or in a
@@ -24,7 +24,7 @@ def numbered(corners: Float[np.ndarray, "corners axes"]) -> Int[np.ndarray, " co
     return np.unique(np.round((corners - corners[0]) / scale), axis=0, return_inverse=True)[1].ravel()
 
 
-def chord_height(triangles: SolidTriangles, between: Difference) -> float:
+def chord_height(triangles: Triangles, between: Difference) -> float:
     """Estimate by how much the chords along the rim of a face may cut into it: the largest height of an arc, a length.
 
     An arc of length l that turns by t radians is l t / 8 high over its chord; l is the length of an edge of the rim,

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from jaxkin.contacts.overlap import Flat, SolidTriangles
+from jaxkin.contacts.overlap import Flat
 from jaxkin.geometry.pose import Points, Vector, perpendicular
+from jaxkin.geometry.triangles import Triangles
 
 
-def unrolled(triangles: SolidTriangles, origin: Vector, axis: Vector, radius: float) -> Flat:
+def unrolled(triangles: Triangles, origin: Vector, axis: Vector, radius: float) -> Flat:
     """Map triangles to the chart: angle about `axis` times `radius`, and height along it from `origin`, both lengths.
 
     The first corner of a triangle has an angle in [-pi, pi], the others are within half a turn of the first. A triangle

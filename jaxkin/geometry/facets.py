@@ -13,6 +13,7 @@ from jaxtyping import Float, Int
 
 from jaxkin.geometry.components import components
 from jaxkin.geometry.pose import Points
+from jaxkin.geometry.triangles import double_areas
 
 COPLANAR_ANGLE = 1e-3
 """Angle between the normals of neighbouring triangles, radians, below which they belong to one facet.
@@ -100,7 +101,7 @@ def facets(points: Points, triangles: np.ndarray, pairs: Int[np.ndarray, "_ 2"],
     the rounding of the points, a length.
     """
     corners = points[triangles]
-    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    cross = double_areas(corners)
     double = np.linalg.norm(cross, axis=-1)
     normals = cross / np.where(double > 0, double, 1.0)[:, None]
     edges = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=-1)

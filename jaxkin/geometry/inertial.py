@@ -9,9 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.pose import Transform, apply
-
-OPEN = 1e-6
-"""Vector sum of the areas of a closed surface over their sum, up to which it counts as closed: rounding."""
+from jaxkin.geometry.triangles import is_closed
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,10 +56,9 @@ def of_density_one(triangles: Float[np.ndarray, "faces 3 3"]) -> Inertial | None
 
     middle = (triangles.reshape(-1, 3).min(axis=0) + triangles.reshape(-1, 3).max(axis=0)) / 2
     centred = triangles - middle  # far from the origin of the world the digits would be lost
-    areas = np.cross(centred[:, 1] - centred[:, 0], centred[:, 2] - centred[:, 0])
     found = trimesh.triangles.mass_properties(centred, density=1.0, center_mass=None, skip_inertia=False)
     volume = float(found["volume"])
-    if np.linalg.norm(areas.sum(axis=0)) > OPEN * np.linalg.norm(areas, axis=1).sum() or volume == 0.0:
+    if not is_closed(centred) or volume == 0.0:
         return None
     inertia = np.sign(volume) * np.asarray(found["inertia"])
     return Inertial(abs(volume), np.asarray(found["center_mass"]) + middle, inertia)

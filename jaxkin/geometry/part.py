@@ -11,6 +11,7 @@ from jaxtyping import Float
 from jaxkin.geometry.inertial import Inertial
 from jaxkin.geometry.pose import Transform, apply
 from jaxkin.geometry.surfaces import Surface
+from jaxkin.geometry.triangles import total_area
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,8 +41,7 @@ class Face:
     @cached_property
     def area(self) -> float:
         """Sum of the areas of the triangles."""
-        edges = self.triangles[:, 1:] - self.triangles[:, :1]
-        return float(np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=-1).sum() / 2)
+        return total_area(self.triangles)
 
 
 @dataclass(frozen=True, eq=False)

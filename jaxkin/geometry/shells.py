@@ -10,7 +10,8 @@ from jaxtyping import Float
 from jaxkin.geometry.components import components, grouped
 from jaxkin.geometry.facets import TriangleIndices
 from jaxkin.geometry.pose import Points
-from jaxkin.geometry.weld import Corners, Welded
+from jaxkin.geometry.triangles import Triangles, double_areas
+from jaxkin.geometry.weld import Welded
 
 _SIDE_SAMPLES = 200
 """Largest number of triangles at which `wrong_side` checks the two sides."""
@@ -116,7 +117,7 @@ def shells(welded: Welded) -> list[TriangleIndices]:
     return grouped(components(len(welded.triangles), welded.pairs))
 
 
-def bodies(corners: Corners, surfaces: list[TriangleIndices]) -> list[TriangleIndices]:
+def bodies(corners: Triangles, surfaces: list[TriangleIndices]) -> list[TriangleIndices]:
     """Join closed surfaces to solids: each outer surface with its cavities.
 
     `corners` are those of all triangles, `surfaces` the indices of the triangles of each closed surface. A surface that
@@ -135,13 +136,13 @@ def bodies(corners: Corners, surfaces: list[TriangleIndices]) -> list[TriangleIn
     return sorted((np.sort(np.concatenate(rows)) for rows in members.values()), key=lambda rows: rows[0])
 
 
-def volume(corners: Corners) -> float:
+def volume(corners: Triangles) -> float:
     """Compute the volume inside a closed surface, negative where it is wound inwards (divergence theorem)."""
     local = corners - corners.reshape(-1, 3).mean(axis=0)
     return float(np.sum(local[:, 0] * np.cross(local[:, 1], local[:, 2])) / 6)
 
 
-def winding_numbers(points: Points, corners: Corners) -> Float[np.ndarray, "points"]:
+def winding_numbers(points: Points, corners: Triangles) -> Float[np.ndarray, "points"]:
     """Compute how often a closed surface winds round each point: 1 inside, 0 outside.
 
     It is the sum of the signed solid angles of the triangles over 4 pi (Van Oosterom and Strackee 1983).
@@ -159,14 +160,14 @@ def winding_numbers(points: Points, corners: Corners) -> Float[np.ndarray, "poin
     return numbers
 
 
-def wrong_side(corners: Corners, tolerance: float, samples: int = _SIDE_SAMPLES) -> Points | None:
+def wrong_side(corners: Triangles, tolerance: float, samples: int = _SIDE_SAMPLES) -> Points | None:
     """Find a point of a closed surface without the solid inside and empty space outside; None if none was found.
 
     Such points are on solids that overlap or touch within one surface, and on surfaces that intersect themselves or are
     wound inwards in part. The winding number is tested close to both sides (`_SIDE_HEIGHT` times `tolerance`, a length)
     of at most `samples` triangles: the largest ones, and others at random.
     """
-    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    cross = double_areas(corners)
     double = np.linalg.norm(cross, axis=-1)
     count = max(2, min(samples, _MAX_SOLID_ANGLES // (2 * len(corners)), len(corners)))
     largest = np.argsort(-double, kind="stable")[: count // 2]
@@ -181,12 +182,12 @@ def wrong_side(corners: Corners, tolerance: float, samples: int = _SIDE_SAMPLES)
     return None
 
 
-def _in_box(point: np.ndarray, corners: Corners) -> bool:
+def _in_box(point: np.ndarray, corners: Triangles) -> bool:
     """Check whether a point is in the bounding box of some triangles."""
     flat = corners.reshape(-1, 3)
     return bool(np.all((point >= flat.min(axis=0)) & (point <= flat.max(axis=0))))
 
 
-def _winds(point: np.ndarray, corners: Corners) -> bool:
+def _winds(point: np.ndarray, corners: Triangles) -> bool:
     """Check whether a closed surface winds round a point, so that the point is inside."""
     return bool(winding_numbers(point[None], corners)[0] > 0.5)

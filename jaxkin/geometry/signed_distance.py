@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin.geometry.triangles import is_closed
+
 BAND = 2.0
 """Steps of the grid from the surface up to which distances are found; beyond, and inside, they count as this many. The
 corners of a cell through which the surface goes are at most sqrt(3) steps from it."""
 LARGEST_EDGE = 6.0
 """Steps of the grid to which edges of triangles are cut before their boxes are filled: boxes of long slanted triangles
 are mostly far from them."""
-OPEN = 1e-6
-"""Vector sum of the areas of a closed surface over their sum, up to which it counts as closed: rounding."""
 BLOCK = 2_000_000
 """Pairs of points and triangles that are held at once: some hundred megabytes."""
 OFF_GRID = (0.5 - np.sqrt(2) / 7, 0.5 - np.sqrt(3) / 11)
@@ -33,8 +33,7 @@ def signed_distance(
     """
     from trimesh.remesh import subdivide_to_size
 
-    areas = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    if np.linalg.norm(areas.sum(axis=0)) > OPEN * np.linalg.norm(areas, axis=1).sum():
+    if not is_closed(triangles):
         raise Open("the surface is not closed")
     low, high = triangles.reshape(-1, 3).min(axis=0), triangles.reshape(-1, 3).max(axis=0)
     first = low - (BAND + 1.0) * step + step * np.array([*OFF_GRID, 0.5])

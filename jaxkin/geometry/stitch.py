@@ -11,6 +11,8 @@ from itertools import pairwise
 import numpy as np
 from jaxtyping import Float, Int
 
+from jaxkin.geometry.triangles import double_areas
+
 Triples = Int[np.ndarray, "_ 3"]
 """Triangles by the indices of their corners."""
 
@@ -104,7 +106,7 @@ class _Stitching:
             return False
         old = self.points[[self.triangles[number] for number in numbers]]
         new_rows = [[to if each == corner else each for each in self.triangles[number]] for number in numbers]
-        areas, new_areas = _areas(old), _areas(self.points[new_rows])
+        areas, new_areas = double_areas(old), double_areas(self.points[new_rows])
         normal = areas[int(np.argmax(np.linalg.norm(areas, axis=-1)))]
         normal = normal / (float(np.linalg.norm(normal)) or 1.0)
         flat = np.abs((old - self.points[corner]) @ normal).max() <= self.tolerance
@@ -139,8 +141,3 @@ class _Stitching:
                     if start in self.at and len(pieces) > 1:
                         self.at[start].discard(number)
                     return
-
-
-def _areas(corners: Float[np.ndarray, "_ 3 3"]) -> Float[np.ndarray, "_ 3"]:
-    """Compute twice the areas of triangles as vectors."""
-    return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])

@@ -9,9 +9,9 @@ from jaxtyping import Float
 
 from jaxkin.geometry.pose import Points
 from jaxkin.geometry.tooth_rows import DEPTH, ToothRow, row_of_teeth
+from jaxkin.geometry.triangles import Triangles
 
 ToothSide = Literal["outer", "inner"]
-Triangles = Float[np.ndarray, "triangles 3 3"]
 
 BINS = 4096
 """Angles at which an outline is sampled: ten on each tooth of a wheel with `MAX_TEETH`."""

@@ -13,8 +13,8 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-Triangles = Float[np.ndarray, "_ 3 3"]
-"""Corners of triangles: [triangle, corner, coordinate]."""
+from jaxkin.geometry.triangles import Triangles
+
 Points = Float[np.ndarray, "_ 3"]
 
 _BATCHES = (1 << 15, 1 << 12, 1 << 9)

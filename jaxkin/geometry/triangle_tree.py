@@ -14,7 +14,8 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from jaxkin.geometry.pose import perpendicular, unit
-from jaxkin.geometry.triangle_distance import Points, Triangles, point_distances
+from jaxkin.geometry.triangle_distance import Points, point_distances
+from jaxkin.geometry.triangles import Triangles, double_areas
 
 if TYPE_CHECKING:
     from scipy.spatial import KDTree
@@ -166,7 +167,7 @@ def _face_ends(label: np.ndarray, starts: np.ndarray, ends: np.ndarray, cuts: np
 
 def aligned_axes(triangles: Triangles) -> Float[np.ndarray, "3 3"]:
     """Choose axes for a solid, in rows: the normal of most of its area, and of most of the area upright to that."""
-    normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    normals = double_areas(triangles)
     areas = np.linalg.norm(normals, axis=-1)
     normals, areas = normals[areas > 0] / areas[areas > 0, None], areas[areas > 0]
     if not len(areas):

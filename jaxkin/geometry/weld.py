@@ -14,9 +14,7 @@ from jaxtyping import Float, Int
 
 from jaxkin.geometry.components import components
 from jaxkin.geometry.stitch import Triples, stitched
-
-Corners = Float[np.ndarray, "_ 3 3"]
-"""Corners of triangles: [triangle, corner, coordinate]."""
+from jaxkin.geometry.triangles import Triangles
 
 _MIN_WEDGE = 1e-2
 """Smallest angle, radians, of a wedge of material between two triangles at an edge.
@@ -38,7 +36,7 @@ class Welded:
     """Start and end point of each edge of one triangle only."""
 
 
-def weld(corners: Corners, tolerance: float) -> Welded:
+def weld(corners: Triangles, tolerance: float) -> Welded:
     """Weld triangles; those that become a line or a point are left out.
 
     `tolerance`, a length, is the rounding of the file.

@@ -15,6 +15,7 @@ from jaxkin.geometry.pose import Points
 from jaxkin.geometry.regions import regions
 from jaxkin.geometry.shells import bodies, holes_and_cracks, shells, volume, wrong_side
 from jaxkin.geometry.torus import Torus
+from jaxkin.geometry.triangles import total_area
 from jaxkin.geometry.weld import weld
 from jaxkin.io.mesh_check import MAX_MESH_NODES
 from jaxkin.io.mesh_nodes import MeshNode, read_nodes
@@ -101,8 +102,7 @@ def _part(name: str, solid: MeshNode, source: str) -> Part:
             f"{max(crack.width for crack in cracks):.2g}: export it with shared corners if faces are missed there"
         )
     triangles = welded.triangles
-    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=-1).sum() / 2
-    if abs(volume(corners)) <= 2 * solid.tolerance * area:
+    if abs(volume(corners)) <= 2 * solid.tolerance * total_area(corners):
         raise ValueError(f"{where} is a sheet, or nothing: its triangles hold no volume; export it as a solid")
     if volume(corners) < 0:
         triangles, corners = triangles[:, ::-1], corners[:, ::-1]

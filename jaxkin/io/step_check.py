@@ -10,10 +10,10 @@ import numpy as np
 
 from jaxkin.geometry.pose import Points, Transform, apply
 from jaxkin.geometry.shells import open_loops, volume, wrong_side
+from jaxkin.geometry.triangles import Triangles, total_area
 from jaxkin.geometry.weld import weld
 from jaxkin.io.step_glb import Instance
 from jaxkin.io.step_rounding import SINGLE
-from jaxkin.io.step_side import Triangles, areas
 
 _CUT_SAMPLES = 24
 """Triangles of a part at which it is looked whether it cuts itself."""
@@ -48,7 +48,7 @@ def unsound(triangles: Triangles, tolerance: float) -> list[Defect]:
     welded = weld(triangles, 2 * tolerance)
     if holes := open_loops(welded, tolerance):
         return [Defect("it is not closed, there is a hole", holes[0].mean(axis=0), "a face is missing or wrong", True)]
-    if volume(triangles) <= tolerance * np.linalg.norm(areas(triangles), axis=-1).sum() / 2:
+    if volume(triangles) <= tolerance * total_area(triangles):
         middle = triangles.mean(axis=(0, 1))
         return [Defect("it holds no volume, or is inside out", middle, "a face is missing or wrong", True)]
     # no damage: its faces are known exactly, and overlapping bodies are common in real assemblies

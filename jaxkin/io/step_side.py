@@ -7,26 +7,24 @@ across the seam of its sphere comes out so). A ray that leaves the solid crosses
 from __future__ import annotations
 
 import numpy as np
-from jaxtyping import Float
 
 from jaxkin.geometry.pose import Points
 from jaxkin.geometry.surfaces import Surface
+from jaxkin.geometry.triangles import Triangles, double_areas
 
 _ROUNDING = 1e-9
 """Of a squared distance: far above the rounding of float64 (1e-16), far below the size of any triangle."""
 
-Triangles = Float[np.ndarray, "_ 3 3"]
-
 
 def winding(surface: Surface, triangles: Triangles) -> float:
     """Tell how the triangles of a face are wound: +1 all out of the material of `surface`, -1 all into it."""
-    along = np.sum(areas(triangles) * surface.normals(triangles.mean(axis=1)), axis=-1)
+    along = np.sum(double_areas(triangles) * surface.normals(triangles.mean(axis=1)), axis=-1)
     return float(along.sum() / max(np.abs(along).sum(), np.finfo(float).tiny))
 
 
 def points_outwards(surface: Surface, triangles: Triangles, solid: Triangles) -> bool:
     """Tell whether the normals of the surface point out of the solid: most of nine rays that leave a face."""
-    largest = np.argsort(-np.linalg.norm(areas(triangles), axis=-1))[:3]
+    largest = np.argsort(-np.linalg.norm(double_areas(triangles), axis=-1))[:3]
     votes = []
     centres = solid.mean(axis=1)
     radii = np.max(np.sum((solid - centres[:, None]) ** 2, axis=-1), axis=-1)
@@ -62,8 +60,3 @@ def _crossings(start: Points, direction: Points, triangles: Triangles) -> int:
     v = turned @ direction / det
     ahead = np.sum(turned * edge2, axis=-1) / det
     return int(np.sum((u >= 0) & (v >= 0) & (u + v <= 1) & (ahead > 0)))
-
-
-def areas(triangles: Triangles) -> Points:
-    """Compute twice the area of each triangle, as a vector along the normal that its winding gives it."""
-    return np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])

@@ -15,10 +15,11 @@ from jaxkin.geometry.merge import merge_faces
 from jaxkin.geometry.part import Face, Part
 from jaxkin.geometry.pose import Points, Transform, apply, unit
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere, Surface
+from jaxkin.geometry.triangles import Triangles, double_areas
 from jaxkin.io.gltf_colors import Color
 from jaxkin.io.step_check import Defect, unsound
 from jaxkin.io.step_glb import ProductMesh
-from jaxkin.io.step_side import Triangles, areas, points_outwards, winding
+from jaxkin.io.step_side import points_outwards, winding
 
 _GROSS = 1e-3
 """Distance of triangles from their surface over the size of the solid; sound files come with up to 2e-4."""
@@ -151,7 +152,7 @@ def _oriented(surface: Surface, triangles: Triangles, rows: TriangleIndices) -> 
     surface = surface if outwards else flipped(surface)
     if outwards == (wound > 0) and abs(wound) >= 0.9:
         return surface, corners, ""
-    facing_in = np.sum(areas(corners) * surface.normals(corners.mean(axis=1)), axis=-1) < 0
+    facing_in = np.sum(double_areas(corners) * surface.normals(corners.mean(axis=1)), axis=-1) < 0
     corners = np.where(facing_in[:, None, None], corners[:, ::-1], corners)
     return (
         surface,

@@ -10,6 +10,7 @@ from jaxtyping import Float
 
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Points, Vector, frame, perpendicular, unit
+from jaxkin.geometry.triangles import double_areas
 from jaxkin.view.raster import rasterise
 
 FLAT = 1e-3
@@ -87,7 +88,7 @@ def _normal(parts: Sequence[Part], steps: Sequence[np.ndarray]) -> Vector | None
     rank = int((widths > max(FLAT * widths[0], 1e-9 * size)).sum())
     if rank >= 2:
         return directions[2] if rank == 2 else None
-    faces = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    faces = double_areas(triangles)
     faces = faces[np.linalg.norm(faces @ directions[:rank].T, axis=1) <= FLAT * np.linalg.norm(faces, axis=1)]
     areas = np.linalg.norm(faces, axis=1, keepdims=True)
     largest = np.take_along_axis(faces, np.abs(faces).argmax(axis=1, keepdims=True), axis=1)

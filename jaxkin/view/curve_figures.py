@@ -8,9 +8,8 @@ from jaxtyping import Float
 from jaxkin.geometry.curves import Curve
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.patches import BicubicSpline, Patch
+from jaxkin.geometry.triangles import Triangles
 from jaxkin.joints.joint import Joint
-
-Triangles = Float[np.ndarray, "triangles 3 3"]
 
 _HEIGHT, _THICKNESS = 3.0, 0.3
 """Height of a wall across the plane of its curve, and half its thickness, over the radius of a drawn bar."""

@@ -11,6 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
+from jaxkin.geometry.triangles import double_areas
+
 BATCH = 1 << 20
 """Pixels that are filled at once: bounds the memory, some tens of bytes each."""
 ON_EDGE = 1e-6
@@ -59,7 +61,7 @@ def rasterise(triangles: Float[np.ndarray, "triangles 3 3"], height: int, width:
 
 def normals(triangles: Float[np.ndarray, "triangles 3 3"]) -> Float[np.ndarray, "triangles 3"]:
     """Compute unit normals, turned towards the viewer (z >= 0); zero for a triangle without area."""
-    cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    cross = double_areas(triangles)
     length = np.linalg.norm(cross, axis=1, keepdims=True)
     return cross * np.where(cross[:, 2:] < 0, -1, 1) / np.where(length > 0, length, 1)
 

@@ -12,6 +12,7 @@ from jaxkin.geometry.figures import BallFigure, BoxFigure, CylinderFigure, Figur
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Transform
+from jaxkin.geometry.triangles import Triangles
 from jaxkin.joints.evidence import EvidenceKind
 from jaxkin.view.curve_figures import curve_figures
 
@@ -26,8 +27,6 @@ _SLIMMER = 0.8
 
 _LAYER, _POST = 2.4, 1.1
 """Distance of two layers of parts, and radius of the posts between them."""
-
-Triangles = Float[np.ndarray, "triangles 3 3"]
 
 
 def stick_parts(mechanism: Mechanism) -> tuple[Part, ...]:
