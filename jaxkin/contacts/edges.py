@@ -18,7 +18,6 @@ TINY = np.finfo(float).tiny
 _PARALLEL_SQUARE = 1e-12
 """Squared sine of the angle between two edges up to which they count as parallel; then a corner is as near."""
 
-
 _AT_ONCE = 100_000
 """Number of pairs of triangles compared at once: bounds the memory to a hundred megabytes."""
 

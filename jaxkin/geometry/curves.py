@@ -57,10 +57,7 @@ class Curve:
         widths = xp.sqrt(xp.sum(chords**2, axis=1))
         knots = xp.concatenate([xp.zeros_like(widths[:1]), xp.cumsum(widths)])
         rise = chords / widths[:, None]
-        slopes = slopes_at_knots(xp, widths, rise, self.closed)
-        begin, end = slopes[:-1], slopes[1:]
-        width = widths[:, None]
-        table = [local[:-1], begin, (3 * rise - 2 * begin - end) / width, (begin + end - 2 * rise) / width**2]
+        table = hermite_cubics(local, rise, slopes_at_knots(xp, widths, rise, self.closed), widths[:, None])
         number = xp.asarray(self.start, float)
         start = length_at(xp, number, knots, self.closed)
         return Spline(knots, xp.stack(table), xp.asarray(start), self.closed)
@@ -134,14 +131,24 @@ class Spline:
 
 def curve_point(coefficients: Any, t: Any, sqrt: Any) -> CurvePoint:
     """Evaluate cubics: `coefficients[power][axis]` at `t` behind the beginning of their pieces, in any arithmetic."""
-    values = []
-    for axis in (0, 1):
-        c0, c1, c2, c3 = (coefficients[power][axis] for power in range(4))
-        values.append((c0 + t * (c1 + t * (c2 + t * c3)), c1 + t * (2 * c2 + 3 * t * c3), 2 * c2 + 6 * t * c3))
-    (x, dx, ddx), (y, dy, ddy) = values
+    (x, dx, ddx), (y, dy, ddy) = (cubic([coefficients[power][axis] for power in range(4)], t) for axis in (0, 1))
     square = dx * dx + dy * dy
     speed = sqrt(square)
     return CurvePoint(x, y, dx / speed, dy / speed, dx, dy, (dx * ddy - dy * ddx) / square)
+
+
+def cubic(c: Any, t: Any) -> tuple[Any, Any, Any]:
+    """Evaluate a cubic, its first and its second derivative, in any arithmetic; `c` are its coefficients by power."""
+    return c[0] + t * (c[1] + t * (c[2] + t * c[3])), c[1] + t * (2 * c[2] + 3 * t * c[3]), 2 * c[2] + 6 * t * c[3]
+
+
+def hermite_cubics(values: Any, rise: Any, slopes: Any, width: Any) -> list[Any]:
+    """Compute the coefficients, by power, of the cubics with given values and derivatives at successive knots.
+
+    `rise` are the quotients of the differences of the values and of the knots, `width` the latter.
+    """
+    begin, end = slopes[:-1], slopes[1:]
+    return [values[:-1], begin, (3 * rise - 2 * begin - end) / width, (begin + end - 2 * rise) / width**2]
 
 
 jax.tree_util.register_dataclass(Spline, data_fields=["knots", "table", "start"], meta_fields=["closed"])

@@ -26,7 +26,6 @@ _MIN_ALIGNED = 0.9
 """Smallest share of points at which the normal of the surface must agree with that given, since the apex of a cone and
 the pole of a spline have no normal of their own."""
 
-
 _APEX_DISTANCES = (1.5, 4.0)
 """Distances of the apex of a cone from the middle of its points, in units of their half extent, that are guessed.
 

@@ -16,7 +16,17 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from jaxkin._pytree import register_leaves
-from jaxkin.geometry.curves import ROUNDING, Curve, CurvePoint, Spline, length_at, number_at, slopes_at_knots
+from jaxkin.geometry.curves import (
+    ROUNDING,
+    Curve,
+    CurvePoint,
+    Spline,
+    cubic,
+    hermite_cubics,
+    length_at,
+    number_at,
+    slopes_at_knots,
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,9 +63,9 @@ class Patch:
         (knots_u, knots_v), (closed_u, closed_v) = knots, self.closed
         by_v = xp.swapaxes(_slopes(xp, knots_v, xp.swapaxes(local, 0, 1), closed_v), 0, 1)
         along_u = xp.stack([local, by_v], axis=1)
-        powers_u = xp.stack(_cubics(xp, knots_u, along_u, _slopes(xp, knots_u, along_u, closed_u)))
+        powers_u = xp.stack(_cubics(knots_u, along_u, _slopes(xp, knots_u, along_u, closed_u)))
         values, slopes = (xp.moveaxis(powers_u[:, :, k], 2, 0) for k in (0, 1))
-        powers = xp.transpose(xp.stack(_cubics(xp, knots_v, values, slopes)), (2, 0, 3, 1, 4))
+        powers = xp.transpose(xp.stack(_cubics(knots_v, values, slopes)), (2, 0, 3, 1, 4))
         start = [length_at(xp, *each) for each in zip(xp.asarray(self.start, float), knots, self.closed, strict=True)]
         height = None if self.height is None else xp.asarray(self.height, float)
         return BicubicSpline(knots_u, knots_v, powers, xp.stack(start), height, self.closed)
@@ -169,8 +179,8 @@ def bicubic(coefficients: Any, s: Any, t: Any) -> PatchDerivatives:
 
     All three components are computed together: `coefficients` is an array, of objects for numbers of other libraries.
     """
-    value, slope, bend = _cubic([coefficients[:, power] for power in range(4)], t)
-    (f, f_s, f_ss), (f_t, f_st, _), (f_tt, _, _) = (_cubic(each, s) for each in (value, slope, bend))
+    value, slope, bend = cubic([coefficients[:, power] for power in range(4)], t)
+    (f, f_s, f_ss), (f_t, f_st, _), (f_tt, _, _) = (cubic(each, s) for each in (value, slope, bend))
     return PatchDerivatives(f, f_s, f_t, f_ss, f_st, f_tt)
 
 
@@ -205,11 +215,6 @@ def add(a: Any, b: Any) -> tuple[Any, ...]:
     return a[0] + b[0], a[1] + b[1], a[2] + b[2]
 
 
-def _cubic(c: Any, t: Any) -> tuple[Any, Any, Any]:
-    """Evaluate a cubic, its first and its second derivative."""
-    return c[0] + t * (c[1] + t * (c[2] + t * c[3])), c[1] + t * (2 * c[2] + 3 * t * c[3]), 2 * c[2] + 6 * t * c[3]
-
-
 def _slopes(xp: Any, knots: Any, values: Any, closed: bool) -> Any:
     """Compute the derivatives of splines along the first axis at all knots: as many rows as `values` has."""
     flat = values.reshape(len(values), -1)
@@ -218,9 +223,7 @@ def _slopes(xp: Any, knots: Any, values: Any, closed: bool) -> Any:
     return slopes_at_knots(xp, widths, rise, closed).reshape(values.shape)
 
 
-def _cubics(xp: Any, knots: Any, values: Any, slopes: Any) -> list[Any]:
+def _cubics(knots: Any, values: Any, slopes: Any) -> list[Any]:
     """Compute the coefficients of the pieces along the first axis, from values and derivatives at the knots."""
     width = (knots[1:] - knots[:-1]).reshape(-1, *(1,) * (values.ndim - 1))
-    begin, end = slopes[:-1], slopes[1:]
-    rise = (values[1:] - values[:-1]) / width
-    return [values[:-1], begin, (3 * rise - 2 * begin - end) / width, (begin + end - 2 * rise) / width**2]
+    return hermite_cubics(values, (values[1:] - values[:-1]) / width, slopes, width)

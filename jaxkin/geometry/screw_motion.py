@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin.geometry.pose import skew
+
 SMALL = 1e-4
 """Angle in radians below which sines are taken as their series: the next terms are a^2/24 of those kept, rounding."""
 
@@ -31,8 +33,7 @@ def displacement_along(velocity: np.ndarray, share: float) -> Float[np.ndarray, 
 
 def _mean_rotation(turn: np.ndarray) -> Float[np.ndarray, "3 3"]:
     """Compute the mean of all rotations up to a rotation vector: 1 + (1 - cos a)/a^2 W + (a - sin a)/a^3 W^2."""
-    x, y, z = turn
-    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    cross = skew(turn)
     angle = float(np.linalg.norm(turn))
     if angle < SMALL:
         return np.eye(3) + cross / 2 + cross @ cross / 6

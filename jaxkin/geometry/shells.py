@@ -25,7 +25,6 @@ _SIDE_HEIGHT = 10
 _MAX_WINDING_ERROR = 0.25
 """Largest deviation of a winding number from 0 or 1 that counts as rounding; off the surface it is a whole number."""
 
-
 _MAX_CRACK_RATIO = 0.02
 """Largest width of a crack over its extent. Sixteen chords leave their circle by 1 percent of its diameter."""
 

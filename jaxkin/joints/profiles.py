@@ -83,7 +83,7 @@ def check_simple(name: str, label: str, placed: PlacedProfile) -> None:
     """Raise ValueError where a profile crosses itself, with the place of the crossing in its own coordinates."""
     from scipy.spatial import KDTree
 
-    _, at = replace_place(placed).samples()
+    _, at = _in_own_axes(placed).samples()
     ends = np.stack([at.x, at.y], axis=1)
     begin, end = (ends, np.roll(ends, -1, axis=0)) if placed.spline.closed else (ends[:-1], ends[1:])
     reach = float(np.linalg.norm(end - begin, axis=1).max())
@@ -106,7 +106,7 @@ def check_simple(name: str, label: str, placed: PlacedProfile) -> None:
         )
 
 
-def replace_place(placed: PlacedProfile) -> PlacedProfile:
+def _in_own_axes(placed: PlacedProfile) -> PlacedProfile:
     """Return the profile in its own axes."""
     curve = Curve(placed.curve.points, placed.curve.start, np.zeros(3), placed.curve.closed)
     return PlacedProfile(curve, curve.spline())

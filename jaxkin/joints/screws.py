@@ -120,8 +120,8 @@ def misfit(movements: Sequence[str], frames: Frames, displacement: Transform) ->
     for _ in range(12):  # from a radian away: some steps of approach, then quadratic convergence
         reached, screws = chain(movements, frames, q)
         missing = displacement @ inverse(reached)
-        skew = missing[:3, :3] - missing[:3, :3].T
-        twist = np.array([skew[2, 1] / 2, skew[0, 2] / 2, skew[1, 0] / 2, *missing[:3, 3]])
+        twice = missing[:3, :3] - missing[:3, :3].T
+        twist = np.array([twice[2, 1] / 2, twice[0, 2] / 2, twice[1, 0] / 2, *missing[:3, 3]])
         size = float(np.linalg.norm(missing - np.eye(4)))
         if size < 1e-13 or len(q) == 0:
             return size
