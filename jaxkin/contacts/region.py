@@ -22,7 +22,7 @@ from jaxkin.contacts.unrolled import shorter_way, turned, unrolled, unrolled_dif
 from jaxkin.geometry.part import Face
 from jaxkin.geometry.pose import Vector, perpendicular
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere
-from jaxkin.geometry.triangles import Triangles
+from jaxkin.geometry.triangles import Triangles, plane_cut
 
 
 @dataclass(frozen=True, eq=False)
@@ -168,10 +168,4 @@ def _cut(triangles: np.ndarray, point: Vector, normal: Vector) -> np.ndarray:
     heights = (triangles - point) @ normal
     above = heights > 0
     crossed = above.any(axis=1) & ~above.all(axis=1)
-    triangles, heights, above = triangles[crossed], heights[crossed], above[crossed]
-    lone = np.argmax(above == (above.sum(axis=1) == 1)[:, None], axis=1)  # the corner alone on its side
-    order = (lone[:, None] + np.arange(3)) % 3
-    triangles = np.take_along_axis(triangles, order[..., None], axis=1)
-    heights = np.take_along_axis(heights, order, axis=1)
-    part = heights[:, :1] / (heights[:, :1] - heights[:, 1:])
-    return triangles[:, :1] + part[..., None] * (triangles[:, 1:] - triangles[:, :1])
+    return plane_cut(triangles[crossed], heights[crossed])

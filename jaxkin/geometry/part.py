@@ -101,6 +101,11 @@ class Part:
         return float(abs(np.einsum("ti,ti->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))) / 6)
 
 
+def box_corners(box: Float[np.ndarray, "2 3"]) -> Float[np.ndarray, "8 3"]:
+    """List the eight corners of a box, given by its lowest and its highest one."""
+    return np.stack(np.meshgrid(*box.T), axis=-1).reshape(-1, 3)
+
+
 def moved(part: Part, pose: Transform) -> Part:
     """Displace a part by a pose, (4, 4)."""
     faces = tuple(

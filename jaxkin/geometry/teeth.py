@@ -9,7 +9,7 @@ from jaxtyping import Float
 
 from jaxkin.geometry.pose import Points
 from jaxkin.geometry.tooth_rows import DEPTH, ToothRow, row_of_teeth
-from jaxkin.geometry.triangles import Triangles
+from jaxkin.geometry.triangles import Triangles, plane_cut
 
 ToothSide = Literal["outer", "inner"]
 
@@ -99,13 +99,7 @@ def section(
     `above` are heights of corners over the plane, which goes through all the triangles; x is along `along`, by default
     some direction across the axis.
     """
-    # the corner that is alone on its side of the plane comes first
-    positive = above > 0
-    alone = np.argmax(positive == (positive.sum(axis=1) == 1)[:, None], axis=1)
-    order = (alone[:, None] + np.arange(3)) % 3
-    corners, above = corners[np.arange(len(corners))[:, None], order], np.take_along_axis(above, order, axis=1)
-    share = above[:, :1] / (above[:, :1] - above[:, 1:])
-    ends = corners[:, :1] + share[..., None] * (corners[:, 1:] - corners[:, :1])
+    ends = plane_cut(corners, above)
     along = np.eye(3)[np.argmin(np.abs(axis))] if along is None else along
     e1 = along - (along @ axis) * axis
     e1 /= np.linalg.norm(e1)

@@ -1,4 +1,4 @@
-"""Triangles of solids, by their corners: areas as vectors, and whether they enclose a volume."""
+"""Triangles of solids, by their corners: areas as vectors, whether they enclose a volume, and cuts by a plane."""
 
 from __future__ import annotations
 
@@ -26,3 +26,17 @@ def is_closed(triangles: Triangles) -> bool:
     """Check whether the areas of triangles add up to zero as vectors, as those of a closed surface do."""
     areas = double_areas(triangles)
     return bool(np.linalg.norm(areas.sum(axis=0)) <= OPEN * np.linalg.norm(areas, axis=1).sum())
+
+
+def plane_cut(triangles: Triangles, heights: Float[np.ndarray, "_ 3"]) -> Float[np.ndarray, "_ 2 3"]:
+    """Compute the segments in which a plane cuts triangles: [triangle, end, coordinate].
+
+    `heights` are those of the corners over the plane, which goes through all of the triangles.
+    """
+    above = heights > 0
+    alone = np.argmax(above == (above.sum(axis=1) == 1)[:, None], axis=1)  # the corner alone on its side
+    order = (alone[:, None] + np.arange(3)) % 3
+    triangles = np.take_along_axis(triangles, order[..., None], axis=1)
+    heights = np.take_along_axis(heights, order, axis=1)
+    share = heights[:, :1] / (heights[:, :1] - heights[:, 1:])
+    return triangles[:, :1] + share[..., None] * (triangles[:, 1:] - triangles[:, :1])

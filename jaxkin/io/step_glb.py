@@ -11,12 +11,12 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, reduce
 from hashlib import sha256
-from itertools import product
 from typing import Any
 
 import numpy as np
 from jaxtyping import Float, Int
 
+from jaxkin.geometry.part import box_corners
 from jaxkin.geometry.pose import Transform
 from jaxkin.io.gltf_colors import Color, from_gltf
 from jaxkin.io.names import cleaned, unique
@@ -48,8 +48,7 @@ class ProductMesh:
     def outline(self) -> Float[np.ndarray, "8 3"]:
         """Corners of the bounding box."""
         corners = self.triangles.reshape(-1, 3) if len(self.triangles) else np.zeros((1, 3))
-        box = np.stack([corners.min(axis=0), corners.max(axis=0)])
-        return np.stack([box[list(ends), range(3)] for ends in product((0, 1), repeat=3)])
+        return box_corners(np.stack([corners.min(axis=0), corners.max(axis=0)]))
 
 
 @dataclass(frozen=True, eq=False)

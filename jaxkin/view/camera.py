@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
-from jaxkin.geometry.part import Part
+from jaxkin.geometry.part import Part, box_corners
 from jaxkin.geometry.pose import Points, Vector, frame, perpendicular, unit
-from jaxkin.geometry.triangles import double_areas
+from jaxkin.geometry.triangles import Triangles, double_areas
 from jaxkin.view.raster import rasterise
 
 FLAT = 1e-3
@@ -46,7 +46,8 @@ def choose_view(parts: Sequence[Part], fixed: Sequence[str], displacements: Part
     Depends neither on the unit nor on the origin.
     """
     moving = [part for part in parts if part.name not in fixed]
-    steps = [(move(displacements, part.name, _corners(part)) - _corners(part)).reshape(-1, 3) for part in moving]
+    corners = {part.name: box_corners(part.box) for part in moving}
+    steps = [(move(displacements, name, each) - each).reshape(-1, 3) for name, each in corners.items()]
     normal = _normal(parts, steps)
     if normal is None:
         azimuths, rise = np.deg2rad(np.arange(8) * 45.0 - 60.0), np.deg2rad(30.0)
@@ -71,10 +72,6 @@ def move(displacements: PartTransforms, part: str, points: Points) -> Float[np.n
     pose = displacements[part]
     turned = np.einsum("pij,...j->p...i", pose[:, :3, :3], np.asarray(points, float))
     return turned + pose[:, :3, 3].reshape(-1, *(1,) * (turned.ndim - 2), 3)
-
-
-def _corners(part: Part) -> Float[np.ndarray, "8 3"]:
-    return np.stack(np.meshgrid(*part.box.T), axis=-1).reshape(-1, 3)
 
 
 def _normal(parts: Sequence[Part], steps: Sequence[np.ndarray]) -> Vector | None:
@@ -138,7 +135,13 @@ def _spread(view: View, steps: Sequence[np.ndarray]) -> float:
 
 def _seen(view: View, triangles: np.ndarray, wanted: np.ndarray) -> int:
     """Count how many pixels of a small picture show a wanted triangle."""
+    return int(wanted[thumbnail(view, triangles)].sum())
+
+
+def thumbnail(view: View, triangles: Triangles) -> Int[np.ndarray, " pixels"]:
+    """Draw a small picture: the index of the triangle in front for each of its pixels that shows one."""
     points = view.project(triangles)
     low, high = points.min(axis=(0, 1)), points.max(axis=(0, 1))
     pixels = (points - low) * (THUMBNAIL / (high - low)[:2].max())
-    return int(wanted[(raster := rasterise(pixels, THUMBNAIL, THUMBNAIL).triangle)[raster >= 0]].sum())
+    front = rasterise(pixels, THUMBNAIL, THUMBNAIL).triangle
+    return front[front >= 0]

@@ -10,9 +10,8 @@ from jaxtyping import Float, UInt8
 
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import frame
-from jaxkin.view.camera import THUMBNAIL, View, choose_view
+from jaxkin.view.camera import View, choose_view, thumbnail
 from jaxkin.view.illustration import SUPERSAMPLING, Canvas, draw
-from jaxkin.view.raster import rasterise
 from jaxkin.view.sheet import Color
 
 WIDTH = 1300
@@ -90,9 +89,6 @@ def _view(parts: Sequence[Part], fixed: Sequence[str]) -> View:
 
 def _seen(parts: Sequence[Part], view: View) -> float:
     """Measure the sum over the parts of the logarithm of what a small picture shows of each."""
-    points = view.project(np.concatenate([part.triangles for part in parts]))
-    low, high = points.min(axis=(0, 1)), points.max(axis=(0, 1))
-    pixels = (points - low) * (THUMBNAIL / (high - low)[:2].max())
     owners = np.repeat(np.arange(len(parts)), [len(part.triangles) for part in parts])
-    front = rasterise(pixels, THUMBNAIL, THUMBNAIL).triangle
-    return float(np.log1p(np.bincount(owners[front[front >= 0]], minlength=len(parts))).sum())
+    front = thumbnail(view, np.concatenate([part.triangles for part in parts]))
+    return float(np.log1p(np.bincount(owners[front], minlength=len(parts))).sum())

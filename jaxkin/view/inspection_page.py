@@ -16,7 +16,7 @@ from jaxkin.assembly.assembly import Assembly
 from jaxkin.assembly.inference.inference import INFERRED
 from jaxkin.contacts.contact import Contacts
 from jaxkin.geometry.movements import MOVEMENTS
-from jaxkin.geometry.part import Part
+from jaxkin.geometry.part import Part, box_corners
 from jaxkin.geometry.units import unit_name
 from jaxkin.joints.evidence import EvidenceKind
 from jaxkin.joints.joint import Joint
@@ -87,7 +87,7 @@ def _scene(found: Mechanism | Assembly, source: str) -> dict:
         "centre": centre.tolist(),
         "scale": scale,
         "axes": [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]],  # z is up
-        "corners": (_corners((np.stack([low, high]) - centre) / scale)).tolist(),
+        "corners": box_corners((np.stack([low, high]) - centre) / scale).tolist(),
         "yaw": YAW,
         "pitch": PITCH,
         "bodies": [
@@ -118,14 +118,10 @@ def _axis(
     place, axis = (pose[:3, 3] - centre) / scale, pose[:3, 2]
     if MOVEMENTS[joint.movements[0]].ball:
         return np.stack([place, place, place])
-    alongs = [(_corners(boxes[part]) - place) @ axis for part in joint.parts]
+    alongs = [(box_corners(boxes[part]) - place) @ axis for part in joint.parts]
     ends = sorted((max(along.min() for along in alongs), min(along.max() for along in alongs)))  # where both parts are
     beyond = np.clip(ends[1] - ends[0], *BEYOND)
     return place + np.outer([0.0, ends[0] - beyond, ends[1] + beyond], axis)
-
-
-def _corners(box: Float[np.ndarray, "2 3"]) -> Float[np.ndarray, "8 3"]:
-    return np.stack(np.meshgrid(*box.T), axis=-1).reshape(-1, 3)
 
 
 def _told(part: Part, unit: str) -> dict:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from jaxkin.geometry.part import box_corners
 from jaxkin.solve.status import Status
 from jaxkin.view.drawing import FIXED_COLOR, body_label
 from jaxkin.view.labels import headline, inputs, named
@@ -48,7 +49,7 @@ def _content(motion: Motion, scene: Scene) -> dict:
     if not scene.view.planar:  # the turntable stands upright in the world
         up = np.array([0.0, 0.0, 1.0])
         axes, yaw, pitch = np.stack([axes[0], up, np.cross(axes[0], up)]), 0.0, RISE
-    corners = np.stack(np.meshgrid(*(scene.bounds - (low + high) / 2).T), axis=-1).reshape(-1, 3) @ scene.view.axes
+    corners = box_corners(scene.bounds - (low + high) / 2) @ scene.view.axes
     first, second = headline(motion)
     status, entries = np.asarray(motion.status), inputs(motion)
     colors = {part.name: part.color or FIXED_COLOR for part in scene.parts}
