@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float, Int
 
-from jaxkin.joints.directions import clusters, components
+from jaxkin.joints.directions import clusters, connected
 
 Points = Float[np.ndarray, "_ 3"]
 Star = tuple[int, Int[np.ndarray, "lines"]]
@@ -32,7 +32,7 @@ def align_positions(points: Points, axes: Points, centres: Points, noise: float)
     parallel = np.linalg.norm(np.cross(axes[:, None], axes[None]), axis=-1) == 0.0
     found_lines = [
         group[members]
-        for group in components(parallel)
+        for group in connected(parallel)
         for members in _coinciding(points[group] - _along(points[group], axes[group]), noise)
     ]
     found_centres = _coinciding(centres, noise)
@@ -75,7 +75,7 @@ def _make_incident(lines: Points, axes: Points, nodes: Points, noise: float) -> 
     linked = np.zeros((len(position), len(position)), bool)
     for node, members in stars:
         linked[count + node, members] = linked[members, count + node] = True
-    for group in components(linked) if len(position) else []:
+    for group in connected(linked) if len(position) else []:
         column = {int(index): k for k, index in enumerate(group)}
         rows = []
         for node, members in stars:

@@ -5,17 +5,16 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
+from jaxkin.geometry.components import components, grouped
+
 Directions = Float[np.ndarray, "directions 3"]
 RESOLVED = 1e-7
 """Angle down to which 1 - |cos| = angle^2 / 2 tells angles in float64, radians; smaller ones their sine tells."""
 
 
-def components(near: Bool[np.ndarray, "n n"]) -> list[Int[np.ndarray, "members"]]:
+def connected(near: Bool[np.ndarray, "n n"]) -> list[Int[np.ndarray, "members"]]:
     """Find the connected components, as arrays of nodes, of the graph with a symmetric adjacency matrix."""
-    from scipy.sparse.csgraph import connected_components
-
-    count, label = connected_components(near, directed=False)
-    return [np.flatnonzero(label == k) for k in range(count)]
+    return grouped(components(len(near), np.argwhere(near)))
 
 
 def clusters(near: Bool[np.ndarray, "n n"], spread) -> list[Int[np.ndarray, "members"]]:
@@ -25,7 +24,7 @@ def clusters(near: Bool[np.ndarray, "n n"], spread) -> list[Int[np.ndarray, "mem
     and its members stay where they are.
     """
     found = []
-    for members in components(near):
+    for members in connected(near):
         found.extend([members] if len(members) == 1 or spread(members) else members[:, None])
     return found
 
@@ -67,7 +66,7 @@ def make_perpendicular(directions: Directions, noise: float) -> Directions:
     """
     result = directions.copy()
     right = np.abs(directions @ directions.T) < noise
-    for members in components(right):
+    for members in connected(right):
         pairs = [(i, j) for i in range(len(members)) for j in range(i) if right[members[i], members[j]]]
         moved = directions[members]
         for _ in range(3 if pairs else 0):  # quadratic: 1e-6, 1e-12, then rounding
