@@ -31,13 +31,13 @@ seconds, processor, memory = float(sys.argv.pop(1)), int(sys.argv.pop(1)), int(s
 sys.argv.pop(0)
 nowhere = open(os.devnull, "w")
 faulthandler.dump_traceback_later(seconds, exit=True, file=nowhere)
-try:
-    import resource
-    resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    resource.setrlimit(resource.RLIMIT_CPU, (processor, processor + 5))
-except (ImportError, ValueError):  # not on every system
-    pass
+bounds = {"RLIMIT_AS": (memory, memory), "RLIMIT_CORE": (0, 0), "RLIMIT_CPU": (processor, processor + 5)}
+for name, bound in bounds.items():
+    try:
+        import resource
+        resource.setrlimit(getattr(resource, name), bound)
+    except (ImportError, ValueError):  # not on every system, and none above what the system itself allows
+        pass
 runpy.run_path(sys.argv[0], run_name="__main__")
 """
 

@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from jaxkin.examples import path
+from jaxkin.io import sandbox
 from jaxkin.io.load import load
 from jaxkin.io.step_convert import convert
 from jaxkin.io.study import load_study
@@ -226,3 +227,12 @@ def test_conversion_leaves_no_files(tmp_path, monkeypatch):
     glb, damages = convert(file.read_bytes(), TimeLimit.start(file))
     assert re.match(rb"glTF", glb) and damages == []
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems have no bound of the address space to lower")
+def test_a_bound_that_the_system_refuses_leaves_the_others(tmp_path):
+    """Who may have 4 GB himself cannot allow 8 GB: the bound of the processor's time holds all the same."""
+    (tmp_path / "worker.py").write_text("import resource\nprint(resource.getrlimit(resource.RLIMIT_CPU)[0])\n")
+    lowered = f"import resource\nresource.setrlimit(resource.RLIMIT_AS, (1 << 32, 1 << 32))\n{sandbox._BOUNDED}"
+    command = [sys.executable, "-c", lowered, "60", "7", str(8 << 30), str(tmp_path / "worker.py")]
+    assert subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip() == "7"
