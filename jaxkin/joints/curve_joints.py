@@ -7,7 +7,6 @@ on each other; nothing rolls.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -18,7 +17,7 @@ from jaxkin.joints.axis_frame import Triple
 from jaxkin.joints.evidence import BY_HAND, Evidence, EvidenceKind
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
-from jaxkin.joints.limits import GivenLimits, with_limits
+from jaxkin.joints.limits import GivenLimits, with_limits_within
 from jaxkin.joints.profile_plane import ProfilePlane, ProfilePoint, profile_plane, profile_point
 from jaxkin.joints.profiles import PlacedProfile, check_simple, nearest_to, placed_profile, tangent_to, touching
 
@@ -253,7 +252,4 @@ def _with_ends(made: Joint, limits: GivenLimits | None) -> Joint:
     for name, spline in zip(names, splines, strict=True):
         if not spline.closed:
             ends[name] = (-float(spline.start), float(spline.knots[-1] - spline.start))
-    if limits is not None and not isinstance(limits, Mapping):
-        return with_limits(made, limits)
-    given = ends | dict(limits or {})
-    return with_limits(made, given) if given else made
+    return with_limits_within(made, ends, limits)

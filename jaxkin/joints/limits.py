@@ -44,6 +44,14 @@ def with_limits(joint: Joint, given: GivenLimits | None) -> Joint:
     return replace(joint, limits=tuple(found))
 
 
+def with_limits_within(joint: Joint, ends: Mapping[str, tuple[float, float]], given: GivenLimits | None) -> Joint:
+    """Give limits to a joint as `with_limits`, and `ends`, by coordinate, where none are given."""
+    if given is not None and not isinstance(given, Mapping):
+        return with_limits(joint, given)
+    both = dict(ends) | dict(given or {})
+    return with_limits(joint, both) if both else joint
+
+
 def _ends(ends: Sequence[float | int], what: str) -> tuple[float, float]:
     try:
         low, high = (float(end) for end in ends)

@@ -6,7 +6,7 @@ its own: their origin is `point`, z is along `axis` and x along `direction`, in 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -24,7 +24,7 @@ from jaxkin.joints.curve_joints import TOUCHES, positive_radius
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
-from jaxkin.joints.limits import GivenLimits, with_limits
+from jaxkin.joints.limits import GivenLimits, with_limits_within
 from jaxkin.joints.patch_contact import LEAST_POINTS, PlacedPatch, check_closed, nearest_on, placed_patch
 from jaxkin.joints.profile_plane import profile_plane
 
@@ -157,10 +157,7 @@ def point_on_surface(
         for label, q, knots, joined in zip("uv", (contact.u, contact.v), spline.knots, spline.closed, strict=True)
         if not joined
     }
-    if limits is not None and not isinstance(limits, Mapping):
-        return with_limits(made, limits)
-    given_limits = edges | dict(limits or {})
-    return with_limits(made, given_limits) if given_limits else made
+    return with_limits_within(made, edges, limits)
 
 
 def _known_from(placed: PlacedPatch, misfit: float) -> Evidence:
