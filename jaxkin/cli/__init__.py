@@ -1,4 +1,8 @@
-"""The command line: `jaxkin demo`, `inspect`, `loops`, `accuracy` and `sweep`."""
+"""The command line: `jaxkin demo`, `inspect`, `loops`, `accuracy` and `sweep`.
+
+The commands are in `app`, their arguments with the help in `arguments`; `options` makes a study of these, `run` does
+what commands share, `report` prints, `written` writes files of `inspect`.
+"""
 
 from __future__ import annotations
 

@@ -41,7 +41,7 @@ def test_the_functions_on_the_route_of_the_solver_are_in_their_files():
     assert [step for step in steps if step[1] and not defined(f"jaxkin/solve/{step[0]}", step[1])] == []
 
 
-@pytest.mark.parametrize("folder", ["assembly", "io"])
+@pytest.mark.parametrize("folder", ["assembly", "contacts", "geometry", "io", "joints", "view"])
 def test_the_index_of_a_large_folder_names_all_its_modules(folder):
     """Each by its name, or as one of those whose names begin alike, `step_...`."""
     inside = ROOT / "jaxkin" / folder
