@@ -170,7 +170,7 @@ class _Reader:
         place = node.find("Position3D")
         point = numbers(node.said("Position3D"), 3, f"{where}: Position3D") if place else np.zeros(3)
         rows = [numbers(each.text, 3, f"{where}: RotationMatrix") for each in node.every("RotationMatrix")]
-        turn = np.array(rows) if rows else np.eye(3)
+        turn = np.array(rows) if node.find("RotationMatrix") else np.eye(3)
         if turn.shape != (3, 3) or np.abs(turn @ turn.T - np.eye(3)).max() > ROTATION or np.linalg.det(turn) < 0:
             raise ValueError(f"{where}: expected a RotationMatrix of three rows, got {turn.tolist()}")
         left, _, right = np.linalg.svd(turn)

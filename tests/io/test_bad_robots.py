@@ -30,6 +30,8 @@ BOMB = '<!DOCTYPE r [<!ENTITY a "aaaa"><!ENTITY b "&a;&a;">]>'
         (".xml", TWO + '<equality><connect body1="a" body2="q"/></equality></mujoco>', "unknown body 'q'"),
         (".sdf", '<sdf><model name="m"><link name="a"/><include><uri>model://no</uri></include></model></sdf>',
          "it includes 'model://no', which is not there"),
+        (".asmt", "OndselSolver\nAssembly\n\tName\n\t\tA\n\tPosition3D\n\t\t0\t0\t0\n\tRotationMatrix\n",
+         "line 2: Assembly: expected a RotationMatrix of three rows"),
     ],
 )  # fmt: skip
 def test_one_line_names_the_file_and_the_element(tmp_path, suffix, text, message):

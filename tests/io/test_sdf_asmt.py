@@ -191,12 +191,8 @@ PARTS = (("crank", (0, 0, 0), UP, 1), ("rod", (0, 1, 0), ALONG, 4), ("rocker", (
 def asmt(folder, joints, more=""):
     text = "OndselSolver\nAssembly\n" + block(1, (0, "Name"), (1, "A")) + placed(1, (0, 0, 0))
     text += markers(1, G1=(0, 0, 0), G2=(4, 0, 0)) + "\tParts\n"
-    for name, point, turn, length in (
-        ("crank", (0, 0, 0), UP, 1),
-        ("rod", (0, 1, 0), UP[1:] and None, 4),
-        ("rocker", (4, 0, 0), UP, 2),
-    ):
-        text += named(2, "Part", name) + (placed(3, point, turn) if turn else placed(3, point))
+    for name, point, turn, length in PARTS:
+        text += named(2, "Part", name) + placed(3, point, turn)
         text += markers(3, E1=(0, 0, 0), E2=(length, 0, 0))
     text += "\tConstraintSets\n\t\tJoints\n"
     for kind, name, one, other in joints:
