@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import typer
 
@@ -27,6 +28,18 @@ MANY_PARTS = 600
 """Parts of an assembly from which on a command says that it takes its time: more than a minute."""
 
 
+class _Written(NamedTuple):
+    """What a sweep wrote, and what is printed of it."""
+
+    paths: list[Path]
+    tell: Callable[[], None]
+    """Prints what became of the poses, and the effects."""
+    more: str
+    """How to go on, in one line."""
+    failed: Mapping[str, str] = {}
+    """The effects that could not be computed, each with the reason."""
+
+
 def sweep(files: Sequence[Path], out: Path, options: Options) -> None:
     """Write the motion that files and options ask for into a folder, and print what became of it.
 
@@ -34,6 +47,29 @@ def sweep(files: Sequence[Path], out: Path, options: Options) -> None:
     for it at the end.
     """
     start = time.perf_counter()
+    from jaxkin.cli import report
+
+    with progress(3) as step:
+        study = find_joints(files, options, step)
+    long = len(next(iter(study.drive.values()))) > LONG
+    if long and study.effects:
+        raise ValueError(
+            f"effects are computed of {LONG} poses at most: drive fewer, or leave out {', '.join(study.effects)}"
+        )
+    written = _streamed(study, out) if long else _swept(study, out)
+    report.say(f"{named(files)}: {study.mechanism.mobility()}")
+    report.print_inferences(study.mechanism)
+    written.tell()
+    report.say()
+    report.print_files(written.paths)
+    report.say(f"\nWritten in {time.perf_counter() - start:.1f} s. {written.more}")
+    if written.failed:
+        reasons = "".join(f"\n  {reason}" for reason in written.failed.values())
+        raise ValueError(f"not computed: {', '.join(written.failed)}; all else is written{reasons}")
+
+
+def _swept(study: Study, out: Path) -> _Written:
+    """Write the motion in all its files, then its effects: none that fails keeps the motion from being written."""
     import jax
 
     from jaxkin.cli import report
@@ -42,55 +78,36 @@ def sweep(files: Sequence[Path], out: Path, options: Options) -> None:
 
     results: dict[str, Result] = {}
     failed: dict[str, str] = {}
+    with progress(1 + len(WRITERS) + len(study.effects)) as step:
+        step("solving")
+        motion, paths = jax.block_until_ready(study.sweep()), []
+        for filename in WRITERS:
+            step(f"writing {filename}")
+            paths += motion.save(out, only=filename)
+        for name in study.effects:
+            step(f"computing {name}")
+            try:
+                results |= compute(motion, {name: study.effects[name]})
+            except ValueError as error:
+                if not about_input(error):
+                    raise
+                failed[name] = str(error)
+        for name, result in results.items():
+            paths += [result.save(out / f"{name}.csv"), result.plot(out / f"{name}.png")]
 
-    with progress(3) as step:
-        study = find_joints(files, options, step)
-    if len(next(iter(study.drive.values()))) > LONG:
-        if study.effects:
-            raise ValueError(
-                f"effects are computed of {LONG} poses at most: drive fewer, or leave out {', '.join(study.effects)}"
-            )
-        said, paths = _streamed(study, out)
-    else:
-        with progress(1 + len(WRITERS) + len(study.effects)) as step:
-            step("solving")
-            motion = jax.block_until_ready(study.sweep())
-            said, paths = motion, []
-            for filename in WRITERS:  # before effects: none that fails keeps the motion from being written
-                step(f"writing {filename}")
-                paths += motion.save(out, only=filename)
-            for name in study.effects:
-                step(f"computing {name}")
-                try:
-                    results |= compute(motion, {name: study.effects[name]})
-                except ValueError as error:
-                    if not about_input(error):
-                        raise
-                    failed[name] = str(error)
-            for name, result in results.items():
-                paths += [result.save(out / f"{name}.csv"), result.plot(out / f"{name}.png")]
-    report.say(f"{named(files)}: {study.mechanism.mobility()}")
-    report.print_inferences(study.mechanism)
-    if isinstance(said, str):
-        report.say(said)
-        more = f"More than {LONG} poses: arrays only."
-    else:
-        report.print_motion(said)
+    def tell() -> None:
+        report.print_motion(motion)
         for result in results.values():
             report.say(f"\n{result}")
-        left = missing(said, study.effects)
+        left = missing(motion, study.effects)
         report.say(f"\n{left}" if left else "")
-        more = f"Open {out / 'motion.html'} in a browser."
-    report.say()
-    report.print_files(paths)
-    report.say(f"\nWritten in {time.perf_counter() - start:.1f} s. {more}")
-    if failed:
-        reasons = "".join(f"\n  {reason}" for reason in failed.values())
-        raise ValueError(f"not computed: {', '.join(failed)}; all else is written{reasons}")
+
+    return _Written(paths, tell, f"Open {out / 'motion.html'} in a browser.", failed)
 
 
-def _streamed(study: Study, out: Path) -> tuple[str, list[Path]]:
-    """Write the motion chunk by chunk, as arrays only; return what became of the poses, and the file."""
+def _streamed(study: Study, out: Path) -> _Written:
+    """Write the motion chunk by chunk, as arrays only."""
+    from jaxkin.cli import report
     from jaxkin.io.long_motion import write_stream
 
     out.mkdir(parents=True, exist_ok=True)
@@ -98,7 +115,7 @@ def _streamed(study: Study, out: Path) -> tuple[str, list[Path]]:
     with progress(1 + len(stream)) as step:
         step("writing motion.npz")
         said = write_stream(stream, out / "motion.npz", lambda: step("writing motion.npz"))
-    return said, [out / "motion.npz"]
+    return _Written([out / "motion.npz"], partial(report.say, said), f"More than {LONG} poses: arrays only.")
 
 
 def named(files: Sequence[Path]) -> str:
