@@ -23,7 +23,7 @@ Files = Annotated[
 Unit = Annotated[
     str | None,
     typer.Option(
-        "--unit", metavar="UNIT", help="Unit of lengths of STL, OBJ and PLY files, which have none: mm, m, ..."
+        "--unit", metavar="UNIT", help="Unit of lengths of STL, OBJ, PLY and ASMT files, which have none: mm, m, ..."
     ),
 ]
 LoopsFile = Annotated[

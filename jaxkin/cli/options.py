@@ -18,7 +18,7 @@ _BETWEEN = re.compile(r"\s-\s|,(?!\s*\d)")
 
 @dataclass(frozen=True)
 class Options:
-    """The options as they were written: first those that commands share, in their order there."""
+    """The options as they were written, in the order of the commands: first those that all of them have."""
 
     fixed: Sequence[str] = ()
     rigid: Sequence[str] = ()
@@ -34,7 +34,6 @@ class Options:
 
     def on(self, files: Sequence[Path], progress: Callable[[int, int], None] | None = None) -> Study:
         """Make the study of a file, or of files of one part each, with the options; `progress` is that of `load`."""
-
         drives = parse_drives(self.drive)
         effects = parse_effects(self.effects)
         rigid, ignore = parse_parts("--rigid", self.rigid), parse_parts("--ignore", self.ignore)

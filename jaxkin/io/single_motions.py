@@ -1,4 +1,4 @@
-"""Joints as chains of hinges, slides and balls, for formats whose joints have one axis each (MJCF, URDF)."""
+"""Joints as chains of hinges, slides and balls, for formats whose joints have one axis each: MJCF, URDF, ASMT."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ class SingleMotion:
     name: str
     kind: Literal["hinge", "slide", "ball"]
     point: Float[np.ndarray, "3"]
-    """A point of the axis, or the centre of the ball, metres."""
+    """A point of the axis, or the centre of the ball, in the unit of the file."""
     axis: Float[np.ndarray, "3"]
     limits: tuple[float, float]
-    """Radians or metres from the assembled pose; infinite where there is none."""
+    """Radians or lengths in the unit of the file, from the assembled pose; infinite where there is none."""
     follows: tuple[str, float] | None = None
     """The motion of the same joint whose displacement it repeats, and the factor; None for one of its own."""
 
@@ -39,9 +39,10 @@ def coordinate_scale(joint: Joint, column: int, metres: float) -> float:
 def single_motions(joint: Joint, names: Sequence[str], metres: float, sign: int = 1) -> list[SingleMotion]:
     """Split a joint into single motions, from its first part to its second; against that where `sign` is -1.
 
-    `names` are those of its coordinates (`coordinate_names`), `metres` the length of the unit of the mechanism. A
-    motion that repeats the displacement of another one, as the advance of a screw does, follows it. Raises ValueError
-    for a joint along a curve or over a surface, which is no product of turns and slides.
+    `names` are those of its coordinates (`coordinate_names`), `metres` the length of the unit of the mechanism in that
+    of the file, which is a metre for robots. A motion that repeats the displacement of another one, as the advance of a
+    screw does, follows it. Raises ValueError for a joint along a curve or over a surface, which is no product of turns
+    and slides.
     """
     if joint.curves:
         raise ValueError(
