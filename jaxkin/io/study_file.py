@@ -165,6 +165,11 @@ class RangeTable(BaseModel):
         ends = [self.first, self.last, self.poses]
         if (self.values is None) == (None in ends) or (self.values is not None and ends != [None] * 3):
             raise ValueError("expected either values, or from, to and poses, beside the unit")
+        if self.poses == 1 and self.first != self.last:
+            raise ValueError(
+                f"one pose cannot be both from = {self.first:g} and to = {self.last:g}; give 2 poses or more, or "
+                f"values = [{self.first:g}]"
+            )
         return self
 
     def range(self) -> Range:

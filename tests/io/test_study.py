@@ -167,6 +167,10 @@ HINGE = '[joints.A]\nkind = "revolute"\nparts = ["ground", "crank"]\n'
         (HEAD + '[drive]\na = "0:1:9999999999"', "drive.a: COUNT must be a number from 1 to 10000000"),
         (HEAD + "[drive]\na = { from = 0, to = 1 }", "drive.a: expected either values, or from, to and poses"),
         (
+            HEAD + "[drive]\na = { from = 0, to = 90, poses = 1 }",
+            "drive.a: one pose cannot be both from = 0 and to = 90",
+        ),
+        (
             HEAD + '[drive]\na = { values = [0], unit = "degrees" }',
             "drive.a.unit: expected one of 'deg', 'rad', 'turn'",
         ),
