@@ -147,7 +147,8 @@ def along_segments(
     segment = np.repeat(np.arange(len(x)), count)
     place = np.arange(len(segment)) - np.repeat(np.cumsum(count) - count, count)
     share = (place + 0.5) / count[segment]
-    return tuple(each[segment, 0] + share * (each[segment, 1] - each[segment, 0]) for each in (x, y))
+    px, py = (each[segment, 0] + share * (each[segment, 1] - each[segment, 0]) for each in (x, y))
+    return px, py
 
 
 def _outline(far: Float[np.ndarray, " bins"], side: ToothSide) -> Float[np.ndarray, " bins"] | None:
