@@ -9,11 +9,13 @@ from typing import TYPE_CHECKING, NamedTuple
 from jaxkin.assembly.at_rest import left_at_rest
 from jaxkin.assembly.needless import with_spinning
 from jaxkin.contacts.contact import Contact
+from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.file_noise import noise_of
 from jaxkin.joints.from_contacts import FoundJoints, joints_from_contacts
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.regularise import Noise
+from jaxkin.linkage.coupled import coupled
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.alignment import SIX_DIGITS, aligned, asked_noise
 from jaxkin.topology.bodies import bodies
@@ -71,7 +73,8 @@ def all_contacts(mechanism: Mechanism) -> tuple[Contact, ...]:
 def without_contacts(mechanism: Mechanism, left_out: Collection[Contact | str]) -> Mechanism:
     """Make the mechanism from the same solids without some contacts, or joints by hand by their names.
 
-    Raises ValueError where that leaves a part that hangs on nothing.
+    Its couplings stay, but for those of coordinates that no joint has then. Raises ValueError where that leaves a part
+    that hangs on nothing.
     """
     every = all_contacts(mechanism)
     by_hand = [each for each in mechanism.all_joints if each.name not in mechanism.contacts]
@@ -81,7 +84,14 @@ def without_contacts(mechanism: Mechanism, left_out: Collection[Contact | str]) 
     noise = noise_of(mechanism.solids, every)
     made = joined(base, [each for each in every if each not in left_out], body, noise, combine=True)
     anew = replace(mechanism, **made._asdict(), alignment=(), contacts_at_rest=(), bonds=(), motors=())
-    return finished(anew, noise)
+    anew = finished(anew, noise)
+    return replace(anew, linkage=coupled(anew.linkage, _couplings_left(mechanism.linkage, anew.linkage.joints)))
+
+
+def _couplings_left(linkage: Linkage, joints: Sequence[Joint]) -> list[Coupling]:
+    """Find the couplings of a linkage that other joints can have: those of coordinates that can be driven alone."""
+    alone = {each.full_names[first] for each in joints for first, *others in each.driven_together if not others}
+    return [each for each in linkage.couplings if alone.issuperset(each.coordinates)]
 
 
 def _alignment_notes(found: FoundJoints, unit: str, size: float) -> list[str]:

@@ -73,6 +73,23 @@ def test_joints_by_hand_are_named():
     assert "joint 'A': then 2 freedoms, moving left, right" in map(str, ways)
 
 
+def test_couplings_hold_what_they_tie_without_a_joint_too():
+    """A triangle of hinges, and two wheels that gears of two ratios lock: without a hinge only the bars move."""
+    points = {"A": (0, 0, 0), "B": (4, 0, 0), "C": (1, 3, 0), "P": (9, 0, 0), "Q": (12, 0, 0)}
+    parts = {
+        "A": ("base", "left"),
+        "B": ("base", "right"),
+        "C": ("left", "right"),
+        "P": ("base", "p"),
+        "Q": ("base", "q"),
+    }
+    hinges = [jk.revolute(name, *parts[name], point=points[name], axis=(0, 0, 1)) for name in points]
+    gears = [jk.gear("P", "Q", ratio, name=f"gear {ratio}") for ratio in (1.0, 2.0)]
+    mechanism = jk.Mechanism.build(fixed=["base"], joints=hinges).with_couplings(gears)
+    assert mechanism.mobility().freedoms == 0
+    assert {way.what: way.freedoms for way in blocking_contacts(mechanism)} == {("A",): 2, ("B",): 2, ("C",): 2}
+
+
 def test_where_no_single_contact_is_the_reason_the_fewest_of_two_parts_are():
     """A bar held twice over by three pairs of faces: each face repeats what the other forbids."""
     lid = [jk.planar(f"lid {k}", "base", "lid", normal=(0, 0, 1), point=(k, 0, 0)) for k in range(2)]
