@@ -20,7 +20,7 @@ from jaxkin.assembly.proposals import Proposal, proposals
 from jaxkin.assembly.to_mechanism import MechanismOptions, check_options, make_mechanism, without_rigid_joints
 from jaxkin.assembly.with_inferences import with_inferences
 from jaxkin.contacts.contact import Contact, Contacts
-from jaxkin.contacts.detect import find_contacts
+from jaxkin.contacts.detect import find_contacts, is_about
 from jaxkin.contacts.tolerance import ContactTolerance
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.units import METRES, unit_name
@@ -132,7 +132,7 @@ class Assembly:
                 ignore=ignore,
                 joints=joints,
                 combine=combine,
-                contacts=None if contacts is None else _contacts_without(contacts, left),
+                contacts=None if contacts is None else self._contacts_without(contacts, left),
                 align=align,
                 infer=infer,
                 clearance=clearance,
@@ -208,6 +208,16 @@ class Assembly:
         parts = tuple(part for part in self.parts if part.name not in names)
         return replace(self, parts=parts, exported=self.exported and self.exported.without(names))
 
+    def _contacts_without(self, contacts: Sequence[Contact], names: Collection[str]) -> Contacts:
+        """Find the contacts, near misses and notes that none of some parts takes part in."""
+        kept = tuple(each for each in contacts if not {*each.parts} & {*names})
+        if not isinstance(contacts, Contacts):
+            return Contacts(kept)
+        nearly = tuple(miss for miss in contacts.near_misses if not {*miss.parts} & {*names})
+        left = [part for part in self.parts if part.name in names]
+        notes = tuple(note for note in contacts.notes if not any(is_about(note, part) for part in left))
+        return Contacts(kept, nearly, notes)
+
     @property
     def found(self) -> tuple[Contacts, ...]:
         """What was detected so far, with whichever tolerances."""
@@ -237,7 +247,7 @@ class Assembly:
         lines = [f"Assembly of {count} from {self.source}, lengths in {unit}"]
         notes = sum(len(part.notes) for part in self.parts)
         if verbose or len(self.parts) + notes <= SCREEN:
-            width = max(len(name) for name in self.names)
+            width = max(map(len, self.names), default=0)
             for part in self.parts:
                 lines.append(f"  {part.name.ljust(width)}  {_faces(part)}")
                 lines += [f"  {' ' * width}    {note}" for note in part.notes]
@@ -271,15 +281,6 @@ def _in_full(names: Sequence[str], parts: Sequence[Part], what: str) -> Sequence
 def _groups(rigid: Sequence[Sequence[str]], parts: Sequence[Part]) -> Sequence[Sequence[str]]:
     groups = several(rigid, "rigid", "groups of parts", '[["bolt", "plate"]]')
     return [group if isinstance(group, str) else _in_full(group, parts, "rigid") for group in groups]
-
-
-def _contacts_without(contacts: Sequence[Contact], names: Collection[str]) -> Contacts:
-    """Find the contacts, near misses and notes that none of some parts takes part in."""
-    kept = tuple(each for each in contacts if not {*each.parts} & {*names})
-    if not isinstance(contacts, Contacts):
-        return Contacts(kept)
-    nearly = tuple(miss for miss in contacts.near_misses if not {*miss.parts} & {*names})
-    return Contacts(kept, nearly, tuple(note for note in contacts.notes if not any(name in note for name in names)))
 
 
 def _faces(part: Part) -> str:

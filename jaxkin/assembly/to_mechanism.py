@@ -16,6 +16,7 @@ from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.joined import WithoutContacts, finished, joined
 from jaxkin.assembly.near_misses import not_accounted_for
 from jaxkin.contacts.contact import Contact, Contacts
+from jaxkin.contacts.detect import is_about
 from jaxkin.geometry.pose import frame
 from jaxkin.joints.combine import LOWER_PAIRS
 from jaxkin.joints.evidence import BY_HAND, Bond, EvidenceKind
@@ -198,7 +199,8 @@ def _refuse_loose(
         problem = f"no chain of contacts ties {_listed(loose)} to the fixed {_listed(fixed)}"
     found = detection_of(assembly, contacts)
     misses = [miss for miss in found.near_misses if set(miss.parts) & set(alone or loose)]
-    said = [note for note in found.notes if any(name in note for name in alone or loose)]
+    about = [part for part in assembly.parts if part.name in (alone or loose)]
+    said = [note for note in found.notes if any(is_about(note, part) for part in about)]
     nearly = [f"  {miss}" for miss in [*misses, *said][:_LISTED]] or ["  and nothing there is nearly in contact"]
     groups = [[_nearest(assembly, island, held), island[0]] for island in islands[:_LISTED]]
     advice = f"correct the model, fix the part, connect it, as with rigid={groups}, or leave it out of the file:"

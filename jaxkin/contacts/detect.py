@@ -95,6 +95,12 @@ def find_contacts(
     return Contacts(tuple(contacts), tuple(near_misses), tuple(notes))
 
 
+def is_about(note: str, part: Part) -> bool:
+    """Tell whether a note of `find_contacts` is about a part: about its faces, or where they meet another part."""
+    faces = [f"{part.name} {label}" for face in part.faces for label in face.name.split(", ")]
+    return note.startswith((f"{part.name}: ", *faces)) or any(f" and {face}" in note for face in faces)
+
+
 def _rounded(parts: tuple[Part, ...], length: float) -> str:
     """Tell that gaps are not seen up to a length, since the numbers of a file are rounded."""
     worst = max(parts, key=lambda part: part.resolution)

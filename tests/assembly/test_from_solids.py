@@ -184,3 +184,15 @@ def test_alignment_by_rounding_of_the_size_of_an_assembly_is_not_told(size):
         found = FoundJoints((), {}, 1e-16, share * size, ())
         assert bool(_alignment_notes(found, "mm", size)) == told
     assert not _alignment_notes(FoundJoints((), {}, 0.0, 0.0, ()), "mm", 0.0)
+
+
+def test_notes_on_parts_whose_names_begin_alike_stay_when_one_is_left_out(fourbar):
+    """Files number parts: a note on part 12 is none on part 2."""
+    names, note = ("1", "2", "12", "3"), "face 9: a spline, not one of the four surfaces"
+    parts = tuple(replace(part, name=name, notes=(note,)) for part, name in zip(fourbar.parts, names, strict=True))
+    made = replace(fourbar, parts=parts).mechanism(fixed=["1"], exclude=["2"])
+    assert [each for each in made.notes if note in each] == [f"{name}: {note}" for name in ("1", "12", "3")]
+
+
+def test_an_assembly_without_parts_is_told_as_such(fourbar):
+    assert str(fourbar.without(["*"])).startswith("Assembly of 0 parts from fourbar.step")
