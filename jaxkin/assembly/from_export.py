@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -29,7 +29,6 @@ from jaxkin.joints.regularise import Noise
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.coupled import counted_from, coupled
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.topology.bodies import bodies
 
 if TYPE_CHECKING:
     from jaxkin.assembly.assembly import Assembly
@@ -66,24 +65,26 @@ def from_export(assembly: Assembly, exported: Exported, options: MechanismOption
             f"fixed=[{assembly.names[0]!r}]"
         )
     check_options(assembly.names, options)
-    check_ignored((), options.ignore, [frozenset(each.parts) for each in exported.constraints])
+    check_ignored((), options.ignore, [frozenset(each.parts) for each in exported.constraints], "joint or mate")
     notes = [*exported.notes]
     digits = max(DIGITS, PLACES * exported.accuracy)
     noise = Noise(digits, digits * size(assembly.parts))
-    groups = _groups(exported, options)
-    constraints = [each for each in exported.constraints if not _replaced(each, options)]
-    while locked := _locked(assembly, options, groups, constraints, noise, notes):
-        groups += locked
-    joints = _joints(assembly, options, groups, constraints, noise, notes, exported.motors)
-    if not exported.marks_rigid:
-        joined = [each.joint.parts for each in joints if each.joint]
-        groups += rigid_subassemblies(assembly.parts, options, groups, joined)
     known = Known(assembly._measured, Contacts(()), options.fixed, options.rigid, options.joints)
-    known.take([*groups, *joints])
+    constraints = _heeded(exported.constraints, options, notes)
+    known.take(_groups(exported, constraints, options))
+    while known.take(_locked(known, constraints, noise, notes)):
+        pass
+    joints = _joints(known, constraints, noise, notes, exported.motors, {given.name for given in options.joints})
+    if not exported.marks_rigid:
+        joined = [each.parts for each in options.joints] + [each.joint.parts for each in joints if each.joint]
+        known.take(rigid_subassemblies(known, joined))
+    notes += _replaced_notes(known, constraints, options)
+    known.take(joints)
     known.take(tied_to_nothing(known))
     mechanism = make_mechanism(assembly, Contacts(()), options, known.found, exported.system)
     owner = {name: name if name in mechanism.joints else name.rpartition(".")[0] for name in exported.motors}
     motors = tuple(name for name, joint in owner.items() if joint in mechanism.joints)
+    notes += [f"the motor {name!r} is left out: it moves nothing here" for name in owner if name not in motors]
     driven = {part for name in motors for part in mechanism.joints[owner[name]].parts}
     spinning = tuple(each for each in mechanism.linkage.spinning if each.name not in driven)
     linkage = _coupled(replace(mechanism.linkage, spinning=spinning), exported, notes)
@@ -128,46 +129,57 @@ def _independent(linkage: Linkage, motors: tuple[str, ...], notes: list[str]) ->
     return tuple(kept)
 
 
-def _groups(exported: Exported, options: MechanismOptions) -> list[Inference]:
-    """List the rigid groups of the export, and its welds."""
-    groups = [
-        Inference(group, Evidence(EvidenceKind.EXPORT, (), "a rigid group of the CAD system"))
-        for group in exported.rigid
+def _heeded(constraints: Sequence[Constraint], options: MechanismOptions, notes: list[str]) -> list[Constraint]:
+    """Leave out the constraints of parts between which the user ignores all; a note names them."""
+    ignored = [each for each in constraints if any({*each.parts} == {*pair} for pair in options.ignored)]
+    if ignored:
+        notes.append(f"{listed([each.text for each in ignored])} ignored, as was asked for")
+    return [each for each in constraints if each not in ignored]
+
+
+def _groups(exported: Exported, constraints: Sequence[Constraint], options: MechanismOptions) -> list[Inference]:
+    """List the rigid groups of the export, and its welds.
+
+    Of a group that a joint by hand is inside of, each part is held to the first one by itself: then the joint takes one
+    part out of the group, and all others stay.
+    """
+    told = Evidence(EvidenceKind.EXPORT, (), "a rigid group of the CAD system")
+    groups = []
+    for group in exported.rigid:
+        apart = any({*group} >= {*given.parts} for given in options.joints)
+        groups += [(group[0], part) for part in group[1:]] if apart else [group]
+    welds = [each for each in constraints if each.kind is JointKind.FIXED]
+    return [
+        *(Inference(group, told) for group in groups),
+        *(Inference(each.parts, Evidence(EvidenceKind.EXPORT, (), each.text)) for each in welds),
     ]
-    welds = [each for each in exported.constraints if each.kind is JointKind.FIXED and not _replaced(each, options)]
-    return groups + [Inference(each.parts, Evidence(EvidenceKind.EXPORT, (), each.text)) for each in welds]
 
 
-def _replaced(constraint: Constraint, options: MechanismOptions) -> bool:
-    """Tell whether the user says something else of the two parts: a joint by hand, or that they are to be ignored."""
-    parts = {*constraint.parts}
-    return any(parts == {*given.parts} for given in options.joints) or any(parts == {*pair} for pair in options.ignored)
+def _replaced_notes(known: Known, constraints: Sequence[Constraint], options: MechanismOptions) -> list[str]:
+    """Tell which constraints of two bodies joints by hand replace."""
+    body, notes = known.body, []
+    for owners, given in {frozenset(body[part] for part in each.parts): each for each in options.joints}.items():
+        if replaced := [each for each in constraints if {body[part] for part in each.parts} == owners]:
+            notes.append(f"joint {given.name!r}, given by hand, replaces {_told(replaced)} between its parts")
+    return notes
 
 
-def _between(
-    assembly: Assembly, options: MechanismOptions, groups: Sequence[Inference], constraints: Sequence[Constraint]
-) -> list[list[Constraint]]:
-    """Collect the constraints of each two bodies; those inside a body are left out."""
-    body = bodies(assembly.names, options.fixed, [*options.rigid, *(each.parts for each in groups)])
+def _between(known: Known, constraints: Sequence[Constraint]) -> list[list[Constraint]]:
+    """Collect the constraints of each two bodies that no joint joins yet; those inside a body are left out."""
     found: dict[frozenset[str], list[Constraint]] = defaultdict(list)
     for each in constraints:
-        owners = frozenset(body[part] for part in each.parts)
-        if len(owners) == 2:
+        owners = frozenset(known.body[part] for part in each.parts)
+        if len(owners) == 2 and owners not in known.jointed:
             found[owners].append(each)
     return list(found.values())
 
 
 def _locked(
-    assembly: Assembly,
-    options: MechanismOptions,
-    groups: Sequence[Inference],
-    constraints: Sequence[Constraint],
-    noise: Noise,
-    notes: list[str],
+    known: Known, constraints: Sequence[Constraint], noise: Noise, notes: list[str]
 ) -> list[Inference]:
     """Find pairs of bodies that several constraints leave no freedom together; features that do not meet are noted."""
     result = []
-    for several in _between(assembly, options, groups, constraints):
+    for several in _between(known, constraints):
         pair = lower_pair([each.chain for each in several], noise) if len(several) > 1 else None
         if pair is not None and pair.kind is JointKind.FIXED:
             evidence = Evidence(
@@ -178,19 +190,18 @@ def _locked(
 
 
 def _joints(
-    assembly: Assembly,
-    options: MechanismOptions,
-    groups: Sequence[Inference],
+    known: Known,
     constraints: Sequence[Constraint],
     noise: Noise,
     notes: list[str],
     motors: Sequence[str],
+    taken: Collection[str],
 ) -> list[Inference]:
-    """Make the joints between bodies; what is no joint, and axes that do not meet, are added to the notes."""
-    taken = {given.name for given in options.joints}
-    driven = {*motors, *(name.rpartition(".")[0] for name in motors)}
+    """Make the joints between bodies, with names that are not `taken`; what is no joint, and axes that do not meet, are
+    added to the notes."""
+    driven, taken = {*motors, *(name.rpartition(".")[0] for name in motors)}, {*taken}
     result = []
-    for several in _between(assembly, options, groups, constraints):
+    for several in _between(known, constraints):
         whole = len(several) > 1 and not any(each.limits or each.pitch or each.name in driven for each in several)
         for name, found in _joints_of_two(several, noise, notes, whole):
             unique = free_name(name, taken)

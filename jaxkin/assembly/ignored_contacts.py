@@ -27,18 +27,21 @@ def without(contacts: Sequence[Contact], ignore: Sequence[Sequence[str]]) -> tup
 
 
 def check_ignored(
-    contacts: Sequence[Contact], ignore: Sequence[Entry], beside: Collection[frozenset[str]] = ()
+    contacts: Sequence[Contact],
+    ignore: Sequence[Entry],
+    beside: Collection[frozenset[str]] = (),
+    what: str = "contact",
 ) -> None:
     """Refuse what leaves nothing out: ValueError for an entry none of whose pairs has a contact, or is one of the pairs
-    of parts `beside`, between which something else is left out."""
+    of parts `beside`, between which something else is left out. `what` names both in the message."""
     sides = [_sides(contact) for contact in contacts]
     for entry in ignore:
         if not any(frozenset(pair) in beside or any(_is_between(each, *pair) for each in sides) for pair in entry):
             one, other = entry[0]
             like = f", nor between {counted(len(entry) - 1, 'other pair')} that they stand for" if entry[1:] else ""
             raise ValueError(
-                f"there is no contact between {one!r} and {other!r}{like} to ignore, and nothing is inferred there"
-                f"{_instead(sides, one, other)}"
+                f"there is no {what} between {one!r} and {other!r}{like} to ignore, and nothing is inferred there"
+                f"{_instead(sides, beside, one, other)}"
             )
 
 
@@ -74,11 +77,13 @@ def _is_between(sides: Sides, one: str, other: str) -> bool:
     return any(one in first and other in second for first, second in (sides, sides[::-1]))
 
 
-def _instead(sides: Sequence[Sides], one: str, other: str) -> str:
+def _instead(sides: Sequence[Sides], beside: Collection[frozenset[str]], one: str, other: str) -> str:
     """Write the end of the message: what a misspelt side may be meant for, or what the first side does touch."""
-    known = dict.fromkeys(name for pair in sides for side in pair for name in side)
+    parts = dict.fromkeys([*(part for pair in sides for part, _ in pair), *sorted(frozenset().union(*beside))])
+    known = dict.fromkeys([*(name for pair in sides for side in pair for name in side), *parts])
     for name in (one, other):
         if name not in known:
-            return closest(name, known) or nearest(name, dict.fromkeys(part for pair in sides for part, _ in pair))
+            return closest(name, known) or nearest(name, parts)
     touching = [second for pair in sides for first, second in (pair, pair[::-1]) if one in first]
-    return f"; {one!r} touches {', '.join(dict.fromkeys(repr(part) for part, _ in touching))}"
+    names = ", ".join(dict.fromkeys(repr(part) for part, _ in touching))
+    return f"; {one!r} touches {names}" if names else ""
