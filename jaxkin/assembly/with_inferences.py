@@ -11,7 +11,7 @@ from jaxkin.assembly.dropped_inference import with_count, with_note_of_dropped, 
 from jaxkin.assembly.ignored_contacts import check_ignored, without
 from jaxkin.assembly.inference.infer import infer
 from jaxkin.assembly.inference.inference import Inference
-from jaxkin.assembly.inference.known import Pair
+from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.springs import DrawnSpring, springs
 from jaxkin.assembly.lids import under_lids
 from jaxkin.assembly.resting import leaves_all_moving, resting
@@ -127,17 +127,18 @@ class _Trials:
         """Make the mechanism with its inferences and `seats`; no pair of parts in `apart` is one body."""
         options = self.options
         rigid = [*options.rigid, *(each.parts for each in seats)]
-        implied = infer(
+        known = Known(
             self.assembly._measured,
             self.used,
             options.fixed,
             rigid,
             options.joints,
-            self.ignored,
-            options.clearance,
-            self.springs,
-            apart,
+            ignored=self.ignored,
+            clearance=options.clearance,
+            apart=apart,
+            springs=self.springs,
         )
+        implied = infer(known)
         self.fasteners.update(implied.fasteners)
         self.heeded.update(implied.taken_back)
         found = [*seats, *implied.found]

@@ -40,7 +40,6 @@ from jaxkin.assembly.inference.lead_nuts import lead_nuts, on_lead_screws
 from jaxkin.assembly.inference.link_ends import hinged_ends
 from jaxkin.assembly.inference.lock_nuts import locked_threads
 from jaxkin.assembly.inference.lying_on_one import lying_on_one
-from jaxkin.assembly.inference.measured import Measured
 from jaxkin.assembly.inference.motors import motor_shafts
 from jaxkin.assembly.inference.on_rings import clamped_on_rings
 from jaxkin.assembly.inference.one_screw import clamped_by_one_screw
@@ -82,8 +81,6 @@ from jaxkin.assembly.inference.undrawn import (
 )
 from jaxkin.assembly.inference.undrawn_rods import on_undrawn_rods
 from jaxkin.assembly.inference.untied import sunk_in_siblings, tied_to_nothing
-from jaxkin.contacts.contact import Contacts
-from jaxkin.joints.joint import Joint
 
 
 class Inferred(NamedTuple):
@@ -100,25 +97,12 @@ class Inferred(NamedTuple):
     """Those of the ignored pairs between which something would have been inferred."""
 
 
-def infer(
-    measured: Measured,
-    contacts: Contacts,
-    fixed: Sequence[str],
-    rigid: Sequence[Sequence[str]] = (),
-    joints: Sequence[Joint] = (),
-    ignored: Collection[Pair] = (),
-    clearance: float | None = None,
-    springs: Collection[str] = (),
-    apart: Collection[Pair] = (),
-) -> Inferred:
+def infer(known: Known) -> Inferred:
     """Infer bodies and joints from solids, the surest rule first; later rules never change what earlier ones found.
 
-    Between the parts of pairs that are `ignored` nothing is inferred; `clearance` is that of `common_axes`.
-    What is pushed by `springs` is not stopped by them. The parts of pairs that are `apart` are not inferred to be one
-    body. Rules are called in ranks, one function each below; the order within a function counts as well.
+    Rules are called in ranks, one function each below; the order within a function counts as well. Each rule is a
+    function of what is `known` so far, which grows by what the rule finds.
     """
-    known = Known(measured, contacts, fixed, rigid, joints, ignored, clearance, apart)
-    known.springs = {*springs}
     _take_bearings(known)
     fastening = _take_hubs_and_find_fasteners(known)
     _take_pins_in_one_part(known, fastening)

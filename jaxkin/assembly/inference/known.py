@@ -29,9 +29,10 @@ Pair = frozenset[str]
 class Known:
     """What is known of the solids of an assembly.
 
-    Fixed: `solids`, `bores`, `tapped`, `sockets`, `between`. Growing, by `take`: `found`, from which `body` and
-    `jointed` follow. Set by `infer` between rules: `axes`, less those that only bearings have, `springs`, `rings`,
-    `closed`, `sleeves`. Sets are never gone through in their own order: it depends on the seed of hashes.
+    Only three things change after it is made. `take` adds inferences to `found`, from which `body` and `jointed`
+    follow, and ignored pairs to `taken_back`. `infer` sets, before the rules that read them: `axes`, less those that
+    only bearings have, `rings`, `closed`, `sleeves` and `blocks`. Sets are never gone through in their own order: it
+    depends on the seed of hashes.
     """
 
     def __init__(
@@ -44,7 +45,14 @@ class Known:
         ignored: Collection[Pair] = (),
         clearance: float | None = None,
         apart: Collection[Pair] = (),
+        springs: Collection[str] = (),
     ):
+        """Take the solids, their contacts, and what the user says of them.
+
+        Between the parts of pairs that are `ignored` nothing is inferred; `clearance` is that of `common_axes`. The
+        parts of pairs that are `apart` are not inferred to be one body. What is pushed by `springs` is not stopped by
+        them.
+        """
         self.measured, self.parts, self.contacts, self.fixed = measured, measured.parts, contacts, tuple(fixed)
         self.solids = {part.name: part for part in self.parts}
         self.names = tuple(self.solids)
@@ -66,7 +74,7 @@ class Known:
         """The pairs of bodies that joints by hand or inferred joints join."""
         self.sleeves: set[str] = set()
         """Bushes that are in another part, which they leave only by sliding."""
-        self.springs: set[str] = set()
+        self.springs = {*springs}
         """Springs, which stop nothing."""
         self.blocks: set[str] = set()
         """Blocks on a pin between walls, which have the form of a nut."""
