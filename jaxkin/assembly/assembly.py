@@ -235,7 +235,7 @@ class Assembly:
     @cached_property
     def _measured(self) -> Measured:
         """What is measured of the solids for inferences."""
-        return Measured(self.parts, METRES.get(self.unit, METRES["mm"]))
+        return Measured(self.parts, METRES[self.unit])
 
     def __str__(self) -> str:
         return self.describe()

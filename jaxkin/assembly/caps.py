@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from jaxkin.assembly.inference.contact_faces import faces_of
 from jaxkin.assembly.inference.stop_faces import WIDER, stands_across
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.part import Part
@@ -57,11 +58,8 @@ def _is_on_floor(contact: Contact, pin: Contact, solids: Mapping[str, Part]) -> 
     axis = next(surface for surface in pin.surfaces if isinstance(surface, Cylinder))
     if not stands_across(contact.surfaces[0], axis.axis):
         return False
-    away = []
-    for part, name in zip(contact.parts, contact.faces, strict=True):
-        face = next(face for face in solids[part].faces if face.name == name)
-        corners = face.triangles.reshape(-1, 3) - axis.point
-        away.append(np.linalg.norm(np.cross(corners, axis.axis), axis=1).max())
+    corners = [face.triangles.reshape(-1, 3) - axis.point for face in faces_of(contact, solids)]
+    away = [np.linalg.norm(np.cross(each, axis.axis), axis=1).max() for each in corners]
     return bool(min(away) <= WIDER * axis.radius)
 
 

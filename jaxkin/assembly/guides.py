@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin.assembly.inference.contact_faces import faces_of
+from jaxkin.geometry.outline import widest_gap
 from jaxkin.geometry.part import Face
-from jaxkin.geometry.trig import TURN
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
 
@@ -31,12 +32,12 @@ def is_guide(mechanism: Mechanism, joint: Joint) -> bool:
     contacts = mechanism.contacts.get(joint.name, ())
     if joint.kind is not JointKind.PRISMATIC or not contacts:
         return False
-    faces = {(part.name, face.name): face for part in mechanism.solids for face in part.faces}
+    solids = {part.name: part for part in mechanism.solids}
     first = next(parts for parts in mechanism.bodies.values() if joint.parts[0] in parts)
     sides: tuple[list[Face], list[Face]] = ([], [])
     for contact in contacts:
-        for part, face in zip(contact.parts, contact.faces, strict=True):
-            sides[part not in first].append(faces[part, face])
+        for part, face in zip(contact.parts, faces_of(contact, solids), strict=True):
+            sides[part not in first].append(face)
     pose = np.asarray(joint.frames_1, float)[0]
     return _hold(sides[0], pose[:3, :2]) and _have_room(sides, pose[:3, 2])
 
@@ -45,8 +46,7 @@ def _hold(faces: list[Face], across: Float[np.ndarray, "3 2"]) -> bool:
     """Tell whether the normals of faces, seen along a slide, leave no half of all directions free."""
     corners = np.concatenate([face.triangles for face in faces])
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) @ across
-    angles = np.sort(np.arctan2(normals[:, 1], normals[:, 0]))
-    return float(np.diff(np.append(angles, angles[0] + TURN)).max()) < np.pi - TILT
+    return widest_gap(np.arctan2(normals[:, 1], normals[:, 0])) < np.pi - TILT
 
 
 def _have_room(sides: tuple[list[Face], list[Face]], along: Float[np.ndarray, " 3"]) -> bool:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from jaxkin.assembly.inference.contact_faces import shared_span
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.assembly.resting import resting
@@ -73,12 +74,5 @@ def _opens(mechanism: Mechanism, hinge: Joint, faces: Sequence[tuple[Vector, Con
     along = np.cross(pose[:3, 2], faces[0][0])
     slack = NEAR * size(mechanism.solids)
     solids = {part.name: part for part in mechanism.solids}
-    ends = []
-    for _, contact in faces:
-        spans = []
-        for part, name in zip(contact.parts, contact.faces, strict=True):
-            face = next(face for face in solids[part].faces if face.name == name)
-            heights = (face.triangles.reshape(-1, 3) - pose[:3, 3]) @ along
-            spans.append((float(heights.min()), float(heights.max())))
-        ends += [max(low for low, _ in spans), min(high for _, high in spans)]
-    return bool(np.linalg.norm(along) > np.cos(ACROSS)) and (min(ends) >= -slack or max(ends) <= slack)
+    ends = np.array([shared_span(contact, solids, along) for _, contact in faces]) - pose[:3, 3] @ along
+    return bool(np.linalg.norm(along) > np.cos(ACROSS)) and bool(ends.min() >= -slack or ends.max() <= slack)

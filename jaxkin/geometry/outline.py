@@ -5,6 +5,14 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin.geometry.trig import TURN
+
+
+def widest_gap(angles: Float[np.ndarray, " angles"]) -> float:
+    """Measure the widest angle between neighbouring directions all round, radians; 2 pi for a single one."""
+    angles = np.sort(angles)
+    return float(np.diff(angles, append=angles[0] + TURN).max())
+
 
 def roundness(outline: Float[np.ndarray, "corners 2"], centre: Float[np.ndarray, " 2"] | None = None) -> float:
     """Return the ratio of the least to the greatest half width of an outline about its centre: 1 for a circle.

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin.geometry.outline import widest_gap
 from jaxkin.geometry.part import Face, Part
 from jaxkin.geometry.pose import Vector
 from jaxkin.geometry.surfaces import Cylinder
@@ -110,7 +111,7 @@ def _same(one: Cylinder, other: Cylinder) -> bool:
 def _bore(part: str, surface: Cylinder, faces: Sequence[Face]) -> Bore | None:
     corners = np.concatenate([face.triangles for face in faces]).reshape(-1, 3) - surface.point
     along = corners @ surface.axis
-    open_arc = opening(corners, surface.axis)
+    open_arc = _open_arc(corners, surface.axis)
     if open_arc > MAX_OPEN_ARC:
         return None
     low, high = float(along.min()), float(along.max())
@@ -132,11 +133,10 @@ def _bore(part: str, surface: Cylinder, faces: Sequence[Face]) -> Bore | None:
     )
 
 
-def opening(corners: Float[np.ndarray, "corners 3"], axis: Vector) -> float:
+def _open_arc(corners: Float[np.ndarray, "corners 3"], axis: Vector) -> float:
     """Measure the widest angle about an axis through the origin in which there is no corner, radians."""
     x = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis))])
-    angles = np.sort(np.arctan2(corners @ np.cross(axis, x), corners @ x))
-    return float(np.diff(angles, append=angles[0] + 2 * np.pi).max())
+    return widest_gap(np.arctan2(corners @ np.cross(axis, x), corners @ x))
 
 
 def merged(spans: Iterable[tuple[float, float]], apart: float = 0.0) -> tuple[tuple[float, float], ...]:

@@ -10,6 +10,7 @@ import numpy as np
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.stop_faces import ACROSS
+from jaxkin.geometry.outline import widest_gap
 from jaxkin.geometry.part import Face, Part
 from jaxkin.geometry.pose import Vector
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane
@@ -172,6 +173,4 @@ def _way(runs: Sequence[_Run]) -> Vector | None:
         return None
     x = runs[0].wheel.axis
     normals = np.array([run.normal for run in runs]) @ np.column_stack([x, np.cross(way, x)])
-    angles = np.sort(np.arctan2(normals[:, 1], normals[:, 0]))
-    free = float(np.diff(np.append(angles, angles[0] + 2 * np.pi)).max())
-    return way if free < np.pi + ACROSS else None
+    return way if widest_gap(np.arctan2(normals[:, 1], normals[:, 0])) < np.pi + ACROSS else None

@@ -7,6 +7,7 @@ import numpy as np
 
 from jaxkin.assembly.inference.axes import MAX_OFFSET, apart, shared_length
 from jaxkin.assembly.inference.bores import Bore, merged, shared
+from jaxkin.assembly.inference.contact_faces import shared_span
 from jaxkin.assembly.inference.fasteners import MAX_EXPOSED, Stack
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.stop_faces import ACROSS, WIDER, stands_across
@@ -39,7 +40,7 @@ def is_countersunk(known: Known, contact: Contact) -> bool:
     cone = contact.surfaces[0]
     if not isinstance(cone, Cone) or not contact.contact_state.is_fit:
         return False
-    ends = np.array(known.shared_span(contact, cone.axis)) - cone.apex @ cone.axis
+    ends = np.array(shared_span(contact, known.solids, cone.axis)) - cone.apex @ cone.axis
     widest = np.tan(cone.half_angle) * np.abs(ends).max()
     pins = [pair.one for pair in known.axes if {*pair.parts} == {*contact.parts} and not pair.virtual]
     coaxial = [

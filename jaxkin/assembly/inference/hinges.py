@@ -8,6 +8,7 @@ import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.bores import NEAR_LENGTH, merged
+from jaxkin.assembly.inference.contact_faces import shared_span
 from jaxkin.assembly.inference.fasteners import Stack, beside
 from jaxkin.assembly.inference.heads import is_exposed
 from jaxkin.assembly.inference.inference import Inference
@@ -131,7 +132,7 @@ def _opens(known: Known, line: CoaxialFeatures) -> bool:
             return False
         normal = contact.surfaces[0].normal * (1 if known.body[contact.parts[0]] == first else -1)
         along = np.cross(axis.axis, normal)
-        low, high = (float(end - axis.point @ along) for end in known.shared_span(contact, along))
+        low, high = (float(end - axis.point @ along) for end in shared_span(contact, known.solids, along))
         slack = NEAR_LENGTH * axis.radius
         signs.add(1 if low >= -slack else -1 if high <= slack else 0)
     return len(signs) == 1 and 0 not in signs

@@ -153,16 +153,7 @@ class Known:
         """Axes that are taken only for parts that nothing else ties; none where a largest clearance is asked for."""
         if self.clearance is not None:
             return []
-        return [pair for pair in self.measured.far_axes(None) if frozenset(pair.parts) not in self.ignored]
-
-    def shared_span(self, contact: Contact, direction: Vector) -> tuple[float, float]:
-        """Find where along a direction two faces in contact are both, from their extents."""
-        spans = []
-        for part, name in zip(contact.parts, contact.faces, strict=True):
-            face = next(face for face in self.solids[part].faces if face.name == name)
-            along = face.triangles.reshape(-1, 3) @ direction
-            spans.append((float(along.min()), float(along.max())))
-        return max(low for low, _ in spans), min(high for _, high in spans)
+        return [pair for pair in self.measured.far_axes if frozenset(pair.parts) not in self.ignored]
 
     def take(self, inferences: Sequence[Inference]) -> bool:
         """Take the inferences of a rule, bodies first; tell whether any was taken.

@@ -28,7 +28,6 @@ class Measured:
         """Take the parts; `metre` is one unit of their lengths in metres."""
         self.parts, self._metre = tuple(parts), metre
         self._axes: dict[float | None, list[CommonAxis]] = {}
-        self._far: dict[float | None, list[CommonAxis]] = {}
         self._slotted: dict[float | None, list[SlottedPin]] = {}
         self._stops: dict[tuple[str, int], list[StopFace]] = {}
         self._slanted: dict[tuple[str, int], list[StopFace]] = {}
@@ -64,12 +63,10 @@ class Measured:
             self._axes[clearance] = common_axes([bore for own in self.bores.values() for bore in own], clearance)
         return self._axes[clearance]
 
-    def far_axes(self, clearance: float | None) -> list[CommonAxis]:
-        """Find the axes of parts that nothing else ties: see `far_axes`."""
-        if clearance not in self._far:
-            every = [bore for own in self.bores.values() for bore in own]
-            self._far[clearance] = far_axes(every, self.axes(clearance))
-        return self._far[clearance]
+    @cached_property
+    def far_axes(self) -> list[CommonAxis]:
+        """Axes of parts that nothing else ties: see `far_axes`."""
+        return far_axes([bore for own in self.bores.values() for bore in own], self.axes(None))
 
     def slotted_pins(self, clearance: float | None) -> list[SlottedPin]:
         """Find the pins with play in slots: see `slotted_pins`."""

@@ -7,6 +7,7 @@ from collections.abc import Collection
 import numpy as np
 
 from jaxkin.assembly.inference.bores import Bore
+from jaxkin.assembly.inference.contact_faces import faces_of
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.stop_faces import ACROSS, WIDER, stands_across
@@ -47,8 +48,7 @@ def _into(known: Known, bar: str, pin: Bore) -> Vector | None:
     for contact in known.between[frozenset((pin.part, bar))]:
         if not stands_across(contact.surfaces[0], pin.axis):
             continue
-        face = contact.faces[contact.parts.index(pin.part)]
-        own = next(each for each in known.solids[pin.part].faces if each.name == face)
+        own = faces_of(contact, known.solids)[contact.parts.index(pin.part)]
         offsets = own.triangles.reshape(-1, 3) - pin.point
         if np.linalg.norm(np.cross(offsets, pin.axis), axis=1).max() <= WIDER * pin.radius:
             return np.sign(offsets[0] @ pin.axis) * pin.axis

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis
+from jaxkin.assembly.inference.contact_faces import shared_span
 from jaxkin.assembly.inference.hinges import MIN_GUIDED
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
@@ -74,7 +75,7 @@ def _jams(known: Known, line: CoaxialFeatures) -> float | None:
     if any(not isinstance(face, Plane) or abs(float(face.normal @ axis)) > ACROSS for _, face in flat):
         return None  # a face across the axis stops the slide
     holes = [end for each in line.found for end in each.other.reach(axis)]
-    shared = [known.shared_span(contact, axis) for contact, _ in flat]
+    shared = [shared_span(contact, known.solids, axis) for contact, _ in flat]
     guided = max([max(holes) - min(holes), *(high - low for low, high in shared)])
     return guided if guided < MIN_GUIDED * pair.other.radius else None
 

@@ -13,6 +13,7 @@ from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.assembly.inference.stopped_joint import StoppedJoint
 from jaxkin.assembly.inference.walls import MAX_SIDE_PLAY, Looking, between_faces, facing, walls
+from jaxkin.geometry.outline import widest_gap
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector
 from jaxkin.geometry.surfaces import Plane
@@ -117,11 +118,8 @@ def slide_between(one: Part, others: Sequence[Part]) -> tuple[Vector, float] | N
     held = walls(looking)
     for normal, play, width in held:
         for across in _directions(looking):
-            axis = np.cross(normal, across)
-            if np.linalg.norm(axis) <= MIN_SLANT:
-                continue
-            axis /= np.linalg.norm(axis)
-            if any(abs(each @ axis) > np.sqrt(1 - ACROSS**2) for each, *_ in held):
+            axis = _axis_across(normal, across, [each for each, *_ in held])
+            if axis is None:
                 continue
             beside = np.cross(axis, normal)
             gaps = [(float(each @ beside), gap) for each, gap, _ in looking if abs(each @ axis) < ACROSS]
@@ -132,6 +130,15 @@ def slide_between(one: Part, others: Sequence[Part]) -> tuple[Vector, float] | N
             if ahead + behind <= MAX_SIDE_PLAY * width:
                 return axis, max(play, ahead + behind)
     return None
+
+
+def _axis_across(first: Vector, second: Vector, walls: Sequence[Vector]) -> Vector | None:
+    """Find the direction along two faces, by their normals; None where these are parallel, or walls stop a slide."""
+    axis = np.cross(first, second)
+    if np.linalg.norm(axis) <= MIN_SLANT:
+        return None
+    axis /= np.linalg.norm(axis)
+    return None if any(abs(each @ axis) > np.sqrt(1 - ACROSS**2) for each in walls) else axis
 
 
 def _directions(looking: Sequence[Looking]) -> list[Vector]:
@@ -152,11 +159,8 @@ def _dovetail(one: Part, others: Sequence[Part]) -> tuple[Vector, float] | None:
     held, middle, directions = walls(looking), one.box.mean(axis=0), _directions(looking)
     for k, first in enumerate(directions):
         for second in directions[:k]:
-            axis = np.cross(first, second)
-            if np.linalg.norm(axis) <= MIN_SLANT:
-                continue
-            axis /= np.linalg.norm(axis)
-            if any(abs(each @ axis) > np.sqrt(1 - ACROSS**2) for each, *_ in held):
+            axis = _axis_across(first, second, [each for each, *_ in held])
+            if axis is None:
                 continue
             across = np.column_stack([first, np.cross(axis, first)])
             along = [each for each in looking if abs(each[0] @ axis) < ACROSS]
@@ -173,10 +177,9 @@ def _room(faces: Sequence[tuple[Float[np.ndarray, "2"], float]]) -> Float[np.nda
 
     The part can be where normal @ shift <= gap for each face: a polygon, whose corners are shifts that meet two faces.
     """
-    angles = np.sort([np.arctan2(normal[1], normal[0]) for normal, _ in faces])
-    if np.diff(angles, append=angles[0] + 2 * np.pi).max() >= np.pi - MIN_SLANT:
-        return None
     normals, gaps = np.array([normal for normal, _ in faces]), np.array([gap for _, gap in faces])
+    if widest_gap(np.arctan2(normals[:, 1], normals[:, 0])) >= np.pi - MIN_SLANT:
+        return None
     one, other = np.tril_indices(len(faces), -1)
     turned = normals[one, 0] * normals[other, 1] - normals[one, 1] * normals[other, 0]
     one, other, turned = (each[np.abs(turned) > MIN_SLANT] for each in (one, other, turned))

@@ -45,11 +45,6 @@ class DrawnSpring(NamedTuple):
     """The part that it lies on with the other end."""
     inference: Inference
 
-    @property
-    def apart(self) -> frozenset[str]:
-        """The spring and what it pushes: their contact holds nothing."""
-        return frozenset((self.part, self.pushed))
-
 
 def springs(
     measured: Measured, contacts: Sequence[Contact], fixed: Collection[str], by_hand: Collection[str]
