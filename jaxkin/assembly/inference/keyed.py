@@ -11,9 +11,8 @@ from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sleeves import SAME_FIT
-from jaxkin.assembly.inference.slides import between_faces
 from jaxkin.assembly.inference.stop_faces import ACROSS, MAX_LIFT, play
-from jaxkin.assembly.inference.walls import is_on_polygon
+from jaxkin.assembly.inference.walls import between_faces, is_on_polygon
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
