@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from jaxkin.assembly.inference.axes import engaged
+from jaxkin.assembly.inference.coaxial_features import coaxial_features
 from jaxkin.assembly.inference.fasteners import beside
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.lines import lines
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 MIN_GUIDE = 2.5
@@ -18,12 +18,12 @@ def dowelled(known: Known) -> list[Inference]:
     """Join bodies that lie flat on each other, across two or more parallel pins of one in holes of the other: pins with
     play, all of them short. Screws that hold them together are left out of such drawings."""
     result = []
-    for line in lines(known):
-        pins = [each for each in line.found if not each.virtual]
+    for coaxial in coaxial_features(known):
+        pins = [each for each in coaxial.found if not each.virtual]
         parallel = any(beside(each.one, pins[0].one) for each in pins[1:])
         short = all(engaged(each) < MIN_GUIDE * each.other.radius for each in pins)
-        flat = (known.touches_only_across(*contact.parts, line.first.one.axis) for contact in line.touching)
-        if parallel and short and line.touching and all(flat):
+        flat = (known.touches_only_across(*contact.parts, coaxial.first.one.axis) for contact in coaxial.touching)
+        if parallel and short and coaxial.touching and all(flat):
             one, other = pins[0].parts
             sizes = (("axes", float(len(pins))), ("clearance", pins[0].clearance))
             text = f"{len(pins)} short parallel pins of {one!r} in {other!r}, and faces that meet around them"

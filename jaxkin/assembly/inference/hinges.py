@@ -8,12 +8,12 @@ import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.bores import NEAR_LENGTH, merged
+from jaxkin.assembly.inference.coaxial_features import CoaxialFeatures, coaxial_features
 from jaxkin.assembly.inference.contact_faces import shared_span
 from jaxkin.assembly.inference.fasteners import Stack, beside
 from jaxkin.assembly.inference.heads import is_exposed
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
-from jaxkin.assembly.inference.lines import CoaxialFeatures, lines
 from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.assembly.inference.stop_faces import MAX_AXIAL_PLAY, MAX_LIFT, between_bores, nearest, play, stands_across
 from jaxkin.assembly.inference.stopped_joint import StoppedJoint, joint_about
@@ -51,16 +51,16 @@ def hinges(
     sun between its bearing and the planet carrier; or bodies stop each other, as the leaves of a hinge do between the
     ends of its pin.
     """
-    some = lines(known, axes)
-    joined = {line.owners: _joined(known, line, fastening, ()) for line in some}
-    kept = [line for line in some if line.is_kept or _is_kept(joined[line.owners])]
-    for line in some:
-        if kept and not _is_kept(joined[line.owners]):
-            joined[line.owners] = _joined(known, line, fastening, kept)
-    sliding = [line for line in some if _slides(joined[line.owners])]
+    some = coaxial_features(known, axes)
+    joined = {coaxial.owners: _joined(known, coaxial, fastening, ()) for coaxial in some}
+    kept = [coaxial for coaxial in some if coaxial.is_kept or _is_kept(joined[coaxial.owners])]
+    for coaxial in some:
+        if kept and not _is_kept(joined[coaxial.owners]):
+            joined[coaxial.owners] = _joined(known, coaxial, fastening, kept)
+    sliding = [coaxial for coaxial in some if _slides(joined[coaxial.owners])]
     while len(sliding) > 1:  # the largest set of bodies that stop each other
-        tried = {line.owners: _joined(known, line, fastening, [*kept, *sliding]) for line in sliding}
-        stopped = [line for line in sliding if _is_kept(tried[line.owners])]
+        tried = {coaxial.owners: _joined(known, coaxial, fastening, [*kept, *sliding]) for coaxial in sliding}
+        stopped = [coaxial for coaxial in sliding if _is_kept(tried[coaxial.owners])]
         if len(stopped) == len(sliding):
             joined |= tried
             break
@@ -82,26 +82,26 @@ def _is(each: StoppedJoint, kind: JointKind) -> bool:
 
 
 def _joined(
-    known: Known, line: CoaxialFeatures, fastening: Collection[str], kept: Sequence[CoaxialFeatures]
+    known: Known, coaxial: CoaxialFeatures, fastening: Collection[str], kept: Sequence[CoaxialFeatures]
 ) -> list[StoppedJoint]:
     """Make the joint of two bodies about their axis; `kept` are pairs of bodies that do not slide on each other."""
-    pair, pins = line.first, line.pins
-    if not line.is_alone:
+    pair, pins = coaxial.first, coaxial.pins
+    if not coaxial.is_alone:
         return []
-    faces = [contact.surfaces[0] for contact in line.touching if contact.contact_state.is_flat]
+    faces = [contact.surfaces[0] for contact in coaxial.touching if contact.contact_state.is_flat]
     planes = [face for face in faces if isinstance(face, Plane)]
     across = [stands_across(plane, pair.one.axis) for plane in planes]
-    if not all(across) and (any(across) or any(pins) or not _opens(known, line)):
+    if not all(across) and (any(across) or any(pins) or not _opens(known, coaxial)):
         return []  # faces along the axis keep it from turning: exact contacts say what is left
-    pinned = [each.one for each in line.found if not each.virtual]
+    pinned = [each.one for each in coaxial.found if not each.virtual]
     if not any(pins) and any(beside(each, pinned[0]) for each in pinned[1:]):
         return [_guided(known, pair)]
     if not any(pins) and _is_disc(pair):
         return []
-    if walled := _walled(known, line, exact=any(pins)):
+    if walled := _walled(known, coaxial, exact=any(pins)):
         return walled
-    fastened = pair.one.part in fastening and not _is_rod(known, line)
-    return _hinge(known, line, any(across), fastened, kept)
+    fastened = pair.one.part in fastening and not _is_rod(known, coaxial)
+    return _hinge(known, coaxial, any(across), fastened, kept)
 
 
 def _is_disc(pair: CommonAxis) -> bool:
@@ -110,24 +110,24 @@ def _is_disc(pair: CommonAxis) -> bool:
     return pair.clearance > MAX_DISC * pair.other.radius and pair.one.half < MAX_DISC * pair.one.radius
 
 
-def _is_rod(known: Known, line: CoaxialFeatures) -> bool:
+def _is_rod(known: Known, coaxial: CoaxialFeatures) -> bool:
     """Tell whether most of a pin is in no hole, as the stem of a roller is: no thread or ring stops its slide.
 
     A shaft in bushes is one to turn, however long it is.
     """
-    pin, other = line.first.parts
-    return other not in known.sleeves and is_exposed(known, Stack((pin,), (other,), line.first.one, guides=True))
+    pin, other = coaxial.first.parts
+    return other not in known.sleeves and is_exposed(known, Stack((pin,), (other,), coaxial.first.one, guides=True))
 
 
-def _opens(known: Known, line: CoaxialFeatures) -> bool:
+def _opens(known: Known, coaxial: CoaxialFeatures) -> bool:
     """Tell whether two bodies can turn one way about their axis without cutting into each other: all plane faces that
     meet are on one side of it, as those of a lid that is drawn closed.
 
     A face with outward normal n meets the other one at distances s from the axis a along a x n; turning by a small
     angle d moves it by -s d along n.
     """
-    axis, first, signs = line.first.one, min(line.owners), set[int]()
-    for contact in line.touching:
+    axis, first, signs = coaxial.first.one, min(coaxial.owners), set[int]()
+    for contact in coaxial.touching:
         if not isinstance(contact.surfaces[0], Plane):
             return False
         normal = contact.surfaces[0].normal * (1 if known.body[contact.parts[0]] == first else -1)
@@ -139,58 +139,58 @@ def _opens(known: Known, line: CoaxialFeatures) -> bool:
 
 
 def _hinge(
-    known: Known, line: CoaxialFeatures, touching: bool, fastened: bool, kept: Sequence[CoaxialFeatures]
+    known: Known, coaxial: CoaxialFeatures, touching: bool, fastened: bool, kept: Sequence[CoaxialFeatures]
 ) -> list[StoppedJoint]:
     """Make a revolute joint where faces stop the slide, otherwise a cylindrical one unless contacts say that exactly.
 
     Faces across the axis that touch stop it, as they do beside a pin that fits exactly. A pin with play that is in the
     middle of its holes, or about as long as they are, may turn only: that is made, too, to be tried.
     """
-    pair, found, exact, radius = line.first, line.found, any(line.pins), line.first.other.radius
-    room, near = _room(known, line, touching, kept)
+    pair, found, exact, radius = coaxial.first, coaxial.found, any(coaxial.pins), coaxial.first.other.radius
+    room, near = _room(known, coaxial, touching, kept)
     if touching or (room is not None and room <= MAX_AXIAL_PLAY * radius):
-        return [joint_about(known, line, Stop.FACES, 0.0 if touching else room, room, touching)]
+        return [joint_about(known, coaxial, Stop.FACES, 0.0 if touching else room, room, touching)]
     far = room is not None and room > FAR * radius
     reach = _reach(found, pair)
     middles = [float(pair.other.point @ pair.one.axis)]
-    if _is_last(known, known.body[pair.one.part], line.owners):
+    if _is_last(known, known.body[pair.one.part], coaxial.owners):
         middles.append(sum(reach) / 2)  # of two bushes, where an axle with its wheels moves nothing else
     jams = room is not None and not pair.virtual and reach[1] - reach[0] < MIN_GUIDED * radius
     centred = not far and not _is_inside(pair, found) and _is_centred(pair, middles)
     if exact:
         if fastened and near is not None and near <= MAX_LIFT * radius:
-            return [joint_about(known, line, Stop.ONE_FACE, near, room)]
+            return [joint_about(known, coaxial, Stop.ONE_FACE, near, room)]
         stop = Stop.CENTRED if centred else Stop.SHORT if jams else None
-        return [] if stop is None else [joint_about(known, line, stop, 0.0, room)]
+        return [] if stop is None else [joint_about(known, coaxial, stop, 0.0, room)]
     if jams:
-        return [joint_about(known, line, Stop.SHORT, 0.0, room)]
-    slides = joint_about(known, line, Stop.NONE, None, room)
+        return [joint_about(known, coaxial, Stop.SHORT, 0.0, room)]
+    slides = joint_about(known, coaxial, Stop.NONE, None, room)
     stop = Stop.CENTRED if centred else Stop.NO_STROKE if _has_no_stroke(pair, reach) else None
-    return [slides] if pair.virtual or far or stop is None else [slides, joint_about(known, line, stop, 0.0, room)]
+    return [slides] if pair.virtual or far or stop is None else [slides, joint_about(known, coaxial, stop, 0.0, room)]
 
 
 def _room(
-    known: Known, line: CoaxialFeatures, touching: bool, kept: Sequence[CoaxialFeatures]
+    known: Known, coaxial: CoaxialFeatures, touching: bool, kept: Sequence[CoaxialFeatures]
 ) -> tuple[float | None, float | None]:
     """Measure how far faces let two bodies slide on each other in all, and how near they are to a face on either side;
     None without faces."""
-    body, pair, hole = known.body, line.first, line.first.other
+    body, pair, hole = known.body, coaxial.first, coaxial.first.other
     rigid = [part for part in known.parts if part.name not in known.springs]
-    groups = [_kept_with(owner, line, kept) for owner in known.in_order(line.owners)]
+    groups = [_kept_with(owner, coaxial, kept) for owner in known.in_order(coaxial.owners)]
     one, other = (
         [stop for part in rigid if body[part.name] in group for stop in known.measured.stops(part, hole)]
         for group in groups
     )
     room, near = play(one, other, hole.radius), nearest(one, other, hole.radius)
-    if not any(line.pins) and not touching and (room is None or room > MAX_AXIAL_PLAY * hole.radius):
+    if not any(coaxial.pins) and not touching and (room is None or room > MAX_AXIAL_PLAY * hole.radius):
         slanted = [
             [stop for part in rigid if body[part.name] in group for stop in known.measured.slanted_stops(part, hole)]
             for group in groups
         ]
         rooms = (room, play([*one, *slanted[0]], [*other, *slanted[1]], hole.radius))
         room = min((each for each in rooms if each is not None), default=None)
-    between = None if pair.virtual else _between(known, pair, line.found)
-    if between is not None and (between <= MAX_AXIAL_PLAY * hole.radius or not any(line.pins)):
+    between = None if pair.virtual else _between(known, pair, coaxial.found)
+    if between is not None and (between <= MAX_AXIAL_PLAY * hole.radius or not any(coaxial.pins)):
         room = between if room is None else min(room, between)
     return room, near
 
@@ -225,10 +225,10 @@ def _is_inside(pair: CommonAxis, found: Sequence[CommonAxis]) -> bool:
     return len(found) == len(spans) == 1 and room > CENTRED * pair.one.radius
 
 
-def _kept_with(owner: str, line: CoaxialFeatures, kept: Sequence[CoaxialFeatures]) -> set[str]:
-    """Find a body with all that turn on it about the axis of a line without a slide, but the other body of the line."""
-    about = [each for each in kept if each.first.other.on_axis_of(line.first.other) and owner in each.owners]
-    return {owner, *(other for each in about for other in each.owners if other not in line.owners)}
+def _kept_with(owner: str, coaxial: CoaxialFeatures, kept: Sequence[CoaxialFeatures]) -> set[str]:
+    """Find a body with all that turn on it about a common axis without a slide, but the other body of the two."""
+    about = [each for each in kept if each.first.other.on_axis_of(coaxial.first.other) and owner in each.owners]
+    return {owner, *(other for each in about for other in each.owners if other not in coaxial.owners)}
 
 
 def _is_last(known: Known, owner: str, owners: Pair) -> bool:
@@ -258,10 +258,10 @@ def _guided(known: Known, pair: CommonAxis) -> StoppedJoint:
     return StoppedJoint(Inference.of(joint, evidence), Stop.NONE, replaces_slide=False)
 
 
-def _walled(known: Known, line: CoaxialFeatures, exact: bool) -> list[StoppedJoint]:
+def _walled(known: Known, coaxial: CoaxialFeatures, exact: bool) -> list[StoppedJoint]:
     """Make a prismatic joint along a pin where walls beside the axis keep a body from turning on it, such as a finger
     in a slot, or a jaw with its neck in one; beside a pin with play the walls of the same two parts."""
-    pair, body = line.first, known.body
+    pair, body = coaxial.first, known.body
     owners = [body[part] for part in pair.parts]
     one, other = (
         [part for part in known.parts if (body[part.name] == owner if exact else part.name == name)]

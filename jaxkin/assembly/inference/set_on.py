@@ -8,11 +8,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis
+from jaxkin.assembly.inference.coaxial_features import CoaxialFeatures, coaxial_features
 from jaxkin.assembly.inference.contact_faces import shared_span
 from jaxkin.assembly.inference.hinges import MIN_GUIDED
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.lines import CoaxialFeatures, lines
 from jaxkin.assembly.inference.sleeves import SAME_FIT
 from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.assembly.inference.stop_faces import ACROSS
@@ -35,11 +35,11 @@ def set_on_pins(known: Known, joined: Sequence[StoppedJoint], guided: Sequence[I
     body, result = known.body, []
     hinged = {frozenset(body[part] for part in each.inference.parts) for each in joined}
     turning = [*known.found, *(each.inference for each in joined)]
-    for line in lines(known):
-        pair = line.first
-        if pair.virtual or not any(line.pins) or line.owners in hinged:
+    for coaxial in coaxial_features(known):
+        pair = coaxial.first
+        if pair.virtual or not any(coaxial.pins) or coaxial.owners in hinged:
             continue
-        if length := _jams(known, line):
+        if length := _jams(known, coaxial):
             text = (
                 f"a face keeps it from turning on the pin of {pair.one.part!r}, and it holds no more than {length:.3g}"
             )
@@ -47,10 +47,10 @@ def set_on_pins(known: Known, joined: Sequence[StoppedJoint], guided: Sequence[I
             result.append(_held(known, pair, text, ("length", length), Stop.SHORT))
         elif _slides_along(known, pair, guided):
             continue
-        elif other := _turning(known, line, turning):
+        elif other := _turning(known, coaxial, turning):
             text = f"it fits the shaft of {pair.one.part!r} exactly, which turns in {other!r}: it turns with it"
             result.append(_held(known, pair, text, ("clearance", pair.clearance), Stop.TIGHT))
-        elif all(line.pins) and (play := _looser(known, pair)):
+        elif all(coaxial.pins) and (play := _looser(known, pair)):
             text = f"it fits the pin of {pair.one.part!r} exactly, on which others have a play of {play:.2g}"
             result.append(_held(known, pair, text, ("play", play), Stop.TIGHT))
     return result
@@ -62,19 +62,21 @@ def _held(known: Known, pair: CommonAxis, text: str, length: tuple[str, float], 
     return StoppedJoint(Inference(parts, evidence), stop, replaces_slide=True)
 
 
-def _jams(known: Known, line: CoaxialFeatures) -> float | None:
+def _jams(known: Known, coaxial: CoaxialFeatures) -> float | None:
     """Find the length along a pin by which faces and holes guide a body that faces keep from turning; None if it could
     slide, or turn.
 
     A plate on a rod between rails is long enough, the ear of a bracket is not.
     """
-    pair, axis = line.first, line.first.one.axis
-    flat = [(contact, contact.surfaces[0]) for contact in line.touching if contact.contact_state.is_flat]
-    if not flat or not all(contact.contact_state.is_flat or contact.contact_state.is_pin for contact in line.touching):
+    pair, axis = coaxial.first, coaxial.first.one.axis
+    flat = [(contact, contact.surfaces[0]) for contact in coaxial.touching if contact.contact_state.is_flat]
+    if not flat or not all(
+        contact.contact_state.is_flat or contact.contact_state.is_pin for contact in coaxial.touching
+    ):
         return None
     if any(not isinstance(face, Plane) or abs(float(face.normal @ axis)) > ACROSS for _, face in flat):
         return None  # a face across the axis stops the slide
-    holes = [end for each in line.found for end in each.other.reach(axis)]
+    holes = [end for each in coaxial.found for end in each.other.reach(axis)]
     shared = [shared_span(contact, known.solids, axis) for contact, _ in flat]
     guided = max([max(holes) - min(holes), *(high - low for low, high in shared)])
     return guided if guided < MIN_GUIDED * pair.other.radius else None
@@ -93,14 +95,14 @@ def _slides_along(known: Known, pair: CommonAxis, guided: Sequence[Inference]) -
     return False
 
 
-def _turning(known: Known, line: CoaxialFeatures, found: Sequence[Inference]) -> str | None:
-    """Find the part in which a shaft turns, by a joint that was `found` on the axis of a line, where nothing but the
+def _turning(known: Known, coaxial: CoaxialFeatures, found: Sequence[Inference]) -> str | None:
+    """Find the part in which a shaft turns, by a joint that was `found` on a common axis, where nothing but the
     shaft holds the body on it, which fits it exactly.
 
     A crank, a wheel or a tyre goes round with what it is on. A rod on a crank, and a nut on a lead screw, are guided by
     others.
     """
-    pair, body = line.first, known.body
+    pair, body = coaxial.first, known.body
     shaft, hub = body[pair.one.part], body[pair.other.part]
     if abs(pair.clearance) > SAME_FIT * pair.other.radius or pair.other.part in known.sleeves:
         return None

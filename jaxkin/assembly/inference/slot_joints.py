@@ -8,9 +8,9 @@ import numpy as np
 
 from jaxkin.assembly.inference.axes import MIN_ENGAGED
 from jaxkin.assembly.inference.bores import shared
+from jaxkin.assembly.inference.coaxial_features import coaxial_features
 from jaxkin.assembly.inference.inference import Inference, offset_told
 from jaxkin.assembly.inference.known import Known, Pair
-from jaxkin.assembly.inference.lines import lines
 from jaxkin.assembly.inference.one_screw import THROUGH
 from jaxkin.assembly.inference.slotted_pins import SlottedPin, round_ends
 from jaxkin.assembly.inference.stop_faces import ACROSS, MAX_AXIAL_PLAY, WIDER, play, stands_across
@@ -163,9 +163,9 @@ def _are_level(known: Known, slotted: SlottedPin, joined: Sequence[StoppedJoint]
         across = joint.kind is JointKind.PRISMATIC and tilt > 1 - ACROSS
         if (joint.kind is JointKind.REVOLUTE and tilt < ACROSS) or across:
             edges.append(tuple(body[part] for part in joint.parts))
-    for line in lines(known):
-        if line.is_kept and np.linalg.norm(np.cross(line.first.one.axis, axis)) < ACROSS:
-            edges.append(tuple(line.owners))
+    for coaxial in coaxial_features(known):
+        if coaxial.is_kept and np.linalg.norm(np.cross(coaxial.first.one.axis, axis)) < ACROSS:
+            edges.append(tuple(coaxial.owners))
     owners = {body[slotted.pin.part], body[slotted.part]}
     return any(owners <= group for group in connected({*body.values()}, edges))
 

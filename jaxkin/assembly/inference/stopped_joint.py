@@ -8,9 +8,9 @@ import numpy as np
 
 from jaxkin.assembly.inference.axes import MAX_TILT, CommonAxis, shared_length
 from jaxkin.assembly.inference.bores import NEAR_LENGTH, SAME_ANGLE, SAME_LENGTH, Bore
+from jaxkin.assembly.inference.coaxial_features import CoaxialFeatures
 from jaxkin.assembly.inference.inference import Inference, offset_told
 from jaxkin.assembly.inference.known import Known, Pair
-from jaxkin.assembly.inference.lines import CoaxialFeatures
 from jaxkin.assembly.inference.slide_stops import Stop, slide_doubt
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
@@ -28,16 +28,16 @@ class StoppedJoint(NamedTuple):
 
 
 def joint_about(
-    known: Known, line: CoaxialFeatures, stop: Stop, free: float | None, room: float | None, touching: bool = False
+    known: Known, coaxial: CoaxialFeatures, stop: Stop, free: float | None, room: float | None, touching: bool = False
 ) -> StoppedJoint:
     """Make a revolute joint with a play `free` along the axis, or a cylindrical one without it.
 
     `stop` is what stops the slide, and `room` the play that faces leave, None without faces on both sides.
     """
-    pair, hole, exact = line.first, line.first.other, any(line.pins)
+    pair, hole, exact = coaxial.first, coaxial.first.other, any(coaxial.pins)
     parts = known.in_order(pair.parts)
     make = pairs.cylindrical if free is None else pairs.revolute
-    axis = _line(known, pair, line.owners)
+    axis = _line(known, pair, coaxial.owners)
     middle = axis.point + ((hole.point - axis.point) @ axis.axis) * axis.axis
     joint = make("-".join(parts), *parts, point=middle, axis=axis.axis)
     sizes = [("radius", hole.radius), ("clearance", pair.clearance), ("offset", pair.offset), ("tilt", pair.tilt)]

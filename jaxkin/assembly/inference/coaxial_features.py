@@ -52,7 +52,7 @@ class CoaxialFeatures(NamedTuple):
         return list(zip(self.touching, self.pins, strict=True))
 
 
-def lines(known: Known, axes: Sequence[CommonAxis] | None = None) -> list[CoaxialFeatures]:
+def coaxial_features(known: Known, axes: Sequence[CommonAxis] | None = None) -> list[CoaxialFeatures]:
     """Find the bodies that have axes in common, but those that joints join already."""
     if axes is None:
         axes = [pair for pair in known.axes if not pair.threaded and id(pair) not in known.slot_ends]
@@ -64,19 +64,20 @@ def lines(known: Known, axes: Sequence[CommonAxis] | None = None) -> list[Coaxia
     exact: dict[Pair, list[Contact]] = {}
     for contact in known.contacts:
         exact.setdefault(frozenset(body[part] for part in contact.parts), []).append(contact)
-    return [_line_of(owners, found, exact.get(owners, [])) for owners, found in between.items()]
+    return [_features_of(owners, found, exact.get(owners, [])) for owners, found in between.items()]
 
 
-def _line_of(owners: Pair, found: list[CommonAxis], touching: list[Contact]) -> CoaxialFeatures:
-    """Make the line of two bodies.
+def _features_of(owners: Pair, found: list[CommonAxis], touching: list[Contact]) -> CoaxialFeatures:
+    """Collect what two bodies have about their axis.
 
     Where a pin fits exactly, equal bores without a pin on another axis hold nothing, such as those of two tubes that
     are drawn in line; parallel ones that bolts go through have made one body.
     """
-    line = CoaxialFeatures(owners, found, touching)
-    if line.first.virtual or not any(line.pins):
-        return line
-    return line._replace(found=[each for each in found if not each.virtual or each.other.on_axis_of(line.first.other)])
+    every = CoaxialFeatures(owners, found, touching)
+    if every.first.virtual or not any(every.pins):
+        return every
+    on_axis = [each for each in found if not each.virtual or each.other.on_axis_of(every.first.other)]
+    return every._replace(found=on_axis)
 
 
 def _rolls(contact: Contact, axis: Bore) -> bool:
@@ -100,13 +101,13 @@ def _neighbours(axes: Sequence[CommonAxis], body: Mapping[str, str]) -> list[Com
     import networkx as nx  # here, as it takes as long to import as half of JAX
 
     virtual = sorted((pair for pair in axes if pair.virtual), key=lambda pair: -engaged(pair))
-    lines: list[tuple[Bore, nx.Graph]] = []
+    graphs: list[tuple[Bore, nx.Graph]] = []
     kept = {id(pair) for pair in axes if not pair.virtual}
     for pair in virtual:
-        graph = next((graph for line, graph in lines if pair.one.on_axis_of(line)), None)
+        graph = next((graph for axis, graph in graphs if pair.one.on_axis_of(axis)), None)
         if graph is None:
             graph = nx.Graph()
-            lines.append((pair.one, graph))
+            graphs.append((pair.one, graph))
         one, other = (body[part] for part in pair.parts)
         if one != other and not (one in graph and other in graph and nx.has_path(graph, one, other)):
             graph.add_edge(one, other)
