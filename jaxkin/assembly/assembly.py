@@ -62,8 +62,9 @@ class Assembly:
     ) -> Contacts:
         """Find the contacts between the parts, and what is nearly one; found once for each choice of tolerances.
 
-        `length` (in the unit of the assembly; 1e-5 of its diagonal by default), `angle` (radians; 1e-4) and `fit`
-        (clearance over radius; 0.02) say what still counts as touching: see `jaxkin.contacts.detect.find_contacts`.
+        `length` (in the unit of the assembly; by default 1e-5 of its diagonal, or what its file is rounded by), `angle`
+        (radians; 1e-4) and `fit` (clearance over radius; 0.02) say what still counts as touching: see
+        `jaxkin.contacts.detect.find_contacts`.
         `progress(done, total)` is called after each pair of parts whose boxes meet.
         """
         tolerances = (length, angle, fit)
@@ -169,9 +170,9 @@ class Assembly:
     ) -> Mechanism:
         """Make the mechanism that rigid groups and joints by hand make alone, without contacts and inferences.
 
-        What they tie to nothing is left at rest, and a note names it. Joints of parts that are left out go with them;
-        those of two parts that `rigid` or `fixed` make one body are left out, and notes name them.
-        Otherwise as `mechanism`.
+        What they tie to nothing is left at rest, and a note names it. With the parts in `exclude` goes all that is said
+        of them. Joints of two parts that `rigid` or `fixed` make one body are left out, and notes name them. Otherwise
+        as `mechanism`.
         """
         left = {*_in_full(exclude, self.parts, "exclude")}
         groups = [[part for part in group if part not in left] for group in _groups(rigid, self.parts)]

@@ -22,8 +22,9 @@ if TYPE_CHECKING:
 TRIED = 3
 """Parts that are tried alone as the fixed one: a mechanism of 175 parts takes four seconds, and what is fixed in an
 assembly that a person drew is among its largest or best connected bodies."""
-
-
+MIN_MOVING = 0.5
+"""Joints that move with several fixed parts over those that move with one, at least: brackets on a wall close loops and
+leave most joints moving (lift table: all of 7), the fixed ends of a machine with tools and wheels leave one of 8."""
 _TOLD = 5
 """Coordinates that a proposal tells: without a fixed frame an assembly of 175 parts has 18 of them, a screen full."""
 
@@ -72,11 +73,6 @@ def grouped(found: Sequence[Proposal]) -> list[str]:
     return [first.told(others) for first, *others in alike.values()]
 
 
-MIN_MOVING = 0.5
-"""Joints that move with several fixed parts over those that move with one, at least: brackets on a wall close loops and
-leave most joints moving (lift table: all of 7), the fixed ends of a machine with tools and wheels leave one of 8."""
-
-
 def proposals(
     assembly: Assembly,
     fixed: Sequence[str] | None = None,
@@ -92,7 +88,7 @@ def proposals(
     Of choices that are alike otherwise the heaviest body is fixed: frames weigh more than what they carry.
     Several fixed parts come after single ones unless they leave one freedom, and most of what moves with one: others
     are no brackets on a wall, but what the machine moves, as the hook and the wheels of a crane.
-    `progress(done, total)` is called after each choice that was tried.
+    `progress(done, total)` is called after each choice that was tried, where `fixed` leaves several.
 
     Raises ValueError for names that do not exist, and for an assembly without parts.
     """

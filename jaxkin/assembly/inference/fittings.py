@@ -11,7 +11,6 @@ from jaxkin.assembly.inference.set_screws import FITTED
 from jaxkin.assembly.inference.sleeves import is_hollow
 from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.geometry.surfaces import Plane
-from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 SIDES = 6
 """Plane faces of a hexagon for a wrench."""
@@ -35,24 +34,18 @@ def screwed_fittings(known: Known) -> list[Inference]:
             or not known.touches_only_across(fitting, host, axis, pins=False)
         ):
             continue
-        result.append(_held(known, pair, f"the hexagon of {fitting!r} is down on {host!r}, into which it is screwed"))
+        result.append(known.fastened(pair, f"the hexagon of {fitting!r} is down on {host!r}, into which it is screwed"))
         for other in known.axes:
             tube = other.one.part
             if other.other is pair.other and _fits(other) and known.touches_only_across(fitting, tube, axis):
                 text = f"{fitting!r} is tightened against the end of {tube!r} in their hole of {host!r}"
-                result.append(_held(known, other, f"{text}: both are screwed in"))
+                result.append(known.fastened(other, f"{text}: both are screwed in"))
     return result
 
 
 def _fits(pair: CommonAxis) -> bool:
     """Tell whether a pin is in its hole as a thread is, drawn as such or as a plain cylinder."""
     return not pair.virtual and (pair.threaded or abs(pair.clearance) <= FITTED * pair.other.radius)
-
-
-def _held(known: Known, pair: CommonAxis, text: str) -> Inference:
-    sizes = (("radius", pair.one.radius), ("clearance", pair.clearance))
-    parts = known.in_order(pair.parts)
-    return Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text))
 
 
 def _is_fitting(known: Known, pair: CommonAxis) -> bool:

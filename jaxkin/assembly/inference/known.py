@@ -18,7 +18,7 @@ from jaxkin.assembly.inference.stop_faces import stands_across
 from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector
-from jaxkin.joints.evidence import EvidenceKind
+from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.joints.joint import Joint
 from jaxkin.topology.bodies import bodies
 
@@ -154,6 +154,11 @@ class Known:
         if self.clearance is not None:
             return []
         return [pair for pair in self.measured.far_axes if frozenset(pair.parts) not in self.ignored]
+
+    def fastened(self, pin: CommonAxis, text: str, *parts: str) -> Inference:
+        """Infer that the parts of a pin and its hole are one body, or other `parts` that the pin fastens."""
+        sizes = (("radius", pin.one.radius), ("clearance", pin.clearance))
+        return Inference(self.in_order(parts or pin.parts), Evidence(EvidenceKind.FASTENER, sizes, text))
 
     def take(self, inferences: Sequence[Inference]) -> bool:
         """Take the inferences of a rule, bodies first; tell whether any was taken.

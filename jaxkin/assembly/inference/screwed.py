@@ -25,10 +25,7 @@ def screwed_in(known: Known, fastening: Collection[str]) -> list[Inference]:
         if pair.threaded and pair.one.part in fastening:
             screw, host = pair.parts
             radii = f"{pair.one.radius:.4g} is screwed into a hole of {pair.other.radius:.4g}"
-            text = f"{screw!r} of radius {radii} of {host!r}"
-            sizes = (("radius", pair.one.radius), ("clearance", pair.clearance))
-            parts = known.in_order(pair.parts)
-            result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
+            result.append(known.fastened(pair, f"{screw!r} of radius {radii} of {host!r}"))
     return result
 
 

@@ -70,9 +70,7 @@ def _jams(known: Known, coaxial: CoaxialFeatures) -> float | None:
     """
     pair, axis = coaxial.first, coaxial.first.one.axis
     flat = [(contact, contact.surfaces[0]) for contact in coaxial.touching if contact.contact_state.is_flat]
-    if not flat or not all(
-        contact.contact_state.is_flat or contact.contact_state.is_pin for contact in coaxial.touching
-    ):
+    if not flat or len(flat) + sum(coaxial.pins) < len(coaxial.touching):
         return None
     if any(not isinstance(face, Plane) or abs(float(face.normal @ axis)) > ACROSS for _, face in flat):
         return None  # a face across the axis stops the slide

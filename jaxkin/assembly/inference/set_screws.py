@@ -18,7 +18,6 @@ from jaxkin.assembly.inference.sleeves import SAME_FIT, is_hollow, is_round, is_
 from jaxkin.assembly.inference.slots import walls_beside
 from jaxkin.assembly.inference.standing import on_floors
 from jaxkin.assembly.inference.stop_faces import ACROSS
-from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 FITTED = 0.02
 """Clearance of a shaft or tube in what is clamped on it, or of a thread drawn as a plain cylinder, over the radius: a
@@ -88,9 +87,7 @@ def clamped_hubs(known: Known, fastening: Collection[str]) -> list[Inference]:
             what = f"the screw {screws[0]!r}" if screws else "a screw that is not drawn, in a hole across it,"
             what = "a screw across its slit" if slit and not screws else what
             text = f"{what} holds {hub!r} to {shaft!r}"
-            parts = known.in_order({*pair.parts, *screws[:1]})
-            sizes = (("radius", pair.one.radius), ("clearance", pair.clearance))
-            result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
+            result.append(known.fastened(pair, text, *{*pair.parts, *screws[:1]}))
     return result
 
 

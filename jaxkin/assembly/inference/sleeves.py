@@ -13,7 +13,6 @@ from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.stop_faces import ACROSS, play
 from jaxkin.geometry.surfaces import Plane
-from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 MAX_LOOSE = 0.1
 """Clearance of a sleeve in its hole, over the radius of the hole, at most: what has more, as a horn or a hub in a wide
@@ -101,12 +100,8 @@ def seated_sleeves(known: Known, found: list[Sleeve]) -> list[Inference]:
         if seat is each.housing and _is_shared(known, each) and not _is_flush(each.housing):
             continue
         host = seat.other.part if seat is each.housing else seat.one.part
-        evidence = Evidence(
-            EvidenceKind.FASTENER,
-            (("radius", seat.one.radius), ("clearance", seat.clearance)),
-            f"the sleeve {each.part!r} is {why} {host!r}, with a clearance of {seat.clearance:.2g}",
-        )
-        result.append(Inference(known.in_order((each.part, host)), evidence))
+        text = f"the sleeve {each.part!r} is {why} {host!r}, with a clearance of {seat.clearance:.2g}"
+        result.append(known.fastened(seat, text))
     return result
 
 

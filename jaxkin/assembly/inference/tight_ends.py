@@ -10,7 +10,6 @@ from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sleeves import SAME_FIT, is_round_about
 from jaxkin.assembly.inference.stop_faces import play
-from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 CLOSED = 0.02
 """Play of a part between a head and a collar of its stud, over the radius, that counts as none."""
@@ -131,8 +130,7 @@ def bolted_ends(known: Known) -> list[Inference]:
         alone = all(body[other] == body[rod] for other, each in found if each.other.part == part)
         if alone or body[part] in ground:
             text = f"{screw!r} in the end of {rod!r} pulls it against {part!r}"
-            sizes = (("radius", through.one.radius), ("clearance", through.clearance))
-            result.append(Inference(known.in_order((rod, part)), Evidence(EvidenceKind.FASTENER, sizes, text)))
+            result.append(known.fastened(through, text, rod, part))
     return result
 
 
@@ -155,8 +153,6 @@ def _is_tight_end(known: Known, pair: CommonAxis) -> bool:
 
 
 def _held(known: Known, pair: CommonAxis, text: str) -> Inference:
-    sizes = (("radius", pair.one.radius), ("clearance", pair.clearance))
     if any(each.clearance > 0 for each in _elsewhere(known, pair)):
         text += ": what has play on that pin turns"
-    parts = known.in_order(pair.parts)
-    return Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text))
+    return known.fastened(pair, text)
