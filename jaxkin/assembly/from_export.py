@@ -174,9 +174,7 @@ def _between(known: Known, constraints: Sequence[Constraint]) -> list[list[Const
     return list(found.values())
 
 
-def _locked(
-    known: Known, constraints: Sequence[Constraint], noise: Noise, notes: list[str]
-) -> list[Inference]:
+def _locked(known: Known, constraints: Sequence[Constraint], noise: Noise, notes: list[str]) -> list[Inference]:
     """Find pairs of bodies that several constraints leave no freedom together; features that do not meet are noted."""
     result = []
     for several in _between(known, constraints):
