@@ -23,6 +23,9 @@ from jaxkin.io.xml_tree import read_xml
 
 STEP_SUFFIXES = (".step", ".stp")
 
+_PACKED = (".stpz", ".gz", ".zip")
+"""The suffixes of packed files; CAD systems write STEP so."""
+
 XML = ".xml"
 """The suffix of exports for Simscape Multibody, and of MuJoCo's robots."""
 
@@ -142,6 +145,8 @@ def _read(
         raise ValueError(f"{path} is a folder: give the path of a STEP file in it, or of each of its meshes as a part")
     if suffix in MESHES:
         return read_mesh(path, name, seconds)
+    if suffix in _PACKED:
+        raise ValueError(f"{path}: load does not unpack files; unpack it, and load the STEP file or the meshes in it")
     if suffix not in STEP_SUFFIXES:
         raise ValueError(
             f"{path}: load reads STEP files ({', '.join(STEP_SUFFIXES)}), meshes ({', '.join(MESHES)}), "

@@ -22,12 +22,13 @@ from jaxkin.io.step_glb import Instance, instances
 from jaxkin.io.step_placements import FilePlacements
 from jaxkin.io.step_rounding import corner_rounding, place_rounding, text_rounding
 from jaxkin.io.step_solid import Solid, make_solid
+from jaxkin.io.step_text import step_text
 from jaxkin.io.step_tree import nameless_occurrences, placed_parts
 from jaxkin.io.step_unit import length_unit, uncertainty
 from jaxkin.io.time_limit import TimeLimit
 
-_SOLIDS = re.compile(rb"MANIFOLD_SOLID_BREP|BREP_WITH_VOIDS|FACETED_BREP|TESSELLATED_SOLID")
-_DOCUMENT = re.compile(rb"DOCUMENT_FILE\s*\(\s*'([^']+)'")
+_SOLIDS = re.compile(r"MANIFOLD_SOLID_BREP|BREP_WITH_VOIDS|FACETED_BREP|TESSELLATED_SOLID")
+_DOCUMENT = re.compile(r"DOCUMENT_FILE\s*\(\s*'([^']+)'")
 """The name of another file that an assembly has its parts in."""
 
 _TOLD_DEFECTS = 3
@@ -56,9 +57,8 @@ def read_step(
     not read in time. Warns where the reader met damages, or parts, faces or their triangles are not what the file says.
     """
     path = Path(path)
-    data = _checked(path)
+    text = _checked(path)
     limit = TimeLimit.start(path, seconds)
-    text = data.decode("latin-1")
     unit_name, metres = length_unit(text, path.name)
     off, relative = uncertainty(text), text_rounding(text)
     placed = placed_parts(text, path.name)
@@ -121,27 +121,22 @@ def _instances(
     return found, damages
 
 
-def _checked(path: Path) -> bytes:
-    """Read the content of the file, if it can be a STEP file with solids."""
+def _checked(path: Path) -> str:
+    """Read the text of the file, if it can be a STEP file with solids."""
     if (size := check_file(path, "STEP file")) > MAX_STEP_BYTES:
         raise ValueError(
             f"{path.name} is {size / 1e6:.0f} MB, more than {MAX_STEP_BYTES / 1e6:.0f}: export it part by part"
         )
-    data = path.read_bytes()
-    if not data.strip():
-        raise ValueError(f"{path.name} is empty: expected a STEP file")
-    if not re.match(rb"(\xef\xbb\xbf)?\s*ISO-10303-21\s*;", data):
-        raise ValueError(f"{path.name} is not a STEP file: it does not begin with ISO-10303-21;")
-    if not re.search(rb"END-ISO-10303-21\s*;", data[-1000:]):
-        raise ValueError(f"{path.name} is cut off: it does not end with END-ISO-10303-21; copy or export it again")
-    if not _SOLIDS.search(data):
-        if elsewhere := [name.decode("utf-8", "replace") for name in dict.fromkeys(_DOCUMENT.findall(data))]:
+    text = step_text(path.read_bytes(), path.name)
+    if not _SOLIDS.search(text):
+        if elsewhere := dict.fromkeys(_DOCUMENT.findall(text)):
+            names = [name.encode("latin-1").decode("utf-8", "replace") for name in elsewhere]
             raise ValueError(
-                f"{path.name} holds no solids: it places those of other files, {listed(elsewhere)}; "
+                f"{path.name} holds no solids: it places those of other files, {listed(names)}; "
                 "export the assembly with all parts in one file"
             )
         raise ValueError(f"{path.name} holds no solids, only surfaces, curves or nothing: export the parts as solids")
-    return data
+    return text
 
 
 def _name(instance: Instance, number: int) -> str:
