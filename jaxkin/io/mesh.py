@@ -8,17 +8,14 @@ from pathlib import Path
 import numpy as np
 
 from jaxkin._files import check_file
-from jaxkin.geometry.facets import facets
-from jaxkin.geometry.merge import merge_faces
-from jaxkin.geometry.part import Face, Part
+from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Points
-from jaxkin.geometry.regions import regions
 from jaxkin.geometry.shells import bodies, holes_and_cracks, shells, volume, wrong_side
-from jaxkin.geometry.torus import Torus
 from jaxkin.geometry.triangles import total_area
 from jaxkin.geometry.weld import weld
 from jaxkin.io.mesh_check import MAX_MESH_NODES
 from jaxkin.io.mesh_nodes import MeshNode, read_nodes
+from jaxkin.io.mesh_regions import recovered_faces
 from jaxkin.io.names import cleaned, unique
 from jaxkin.io.time_limit import TimeLimit
 
@@ -112,16 +109,8 @@ def _part(name: str, solid: MeshNode, source: str) -> Part:
         raise ValueError(
             f"{where} cuts itself, or solids touch or overlap in it, near ({near}): unite them, or give each as a part"
         )
-    mesh = facets(welded.points, triangles, welded.pairs, solid.tolerance)
-    faces = []
-    for number, region in enumerate(regions(mesh), start=1):
-        label = f"face {number}"
-        if isinstance(region.surface, Torus) or region.surface is None:
-            kind = "torus" if region.surface else f"freeform surface of {len(region.rows)} triangles"
-            notes.append(f"{label}: {kind}, not one of the four surfaces")
-        else:
-            faces.append(Face(label, region.surface, corners[region.rows]))
-    return Part(name, merge_faces(faces, solid.tolerance), corners, solid.color, tuple(notes), solid.vertex_resolution)
+    faces, unknown = recovered_faces(replace(welded, triangles=triangles), solid.tolerance)
+    return Part(name, faces, corners, solid.color, (*notes, *unknown), solid.vertex_resolution)
 
 
 def _holes(loops: list[Points]) -> str:

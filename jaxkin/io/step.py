@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import warnings
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -15,12 +15,13 @@ from jaxkin._files import check_file
 from jaxkin._names import listed
 from jaxkin.geometry.part import Part
 from jaxkin.io.names import cleaned, is_damaged, unique
-from jaxkin.io.step_check import far_away, missing
+from jaxkin.io.step_check import far_away, missing, without_tessellations
 from jaxkin.io.step_colors import one_color_each
 from jaxkin.io.step_convert import convert
 from jaxkin.io.step_glb import Instance, instances
 from jaxkin.io.step_placements import FilePlacements
 from jaxkin.io.step_rounding import corner_rounding, place_rounding, text_rounding
+from jaxkin.io.step_shapes import StepShapes, solids_alone
 from jaxkin.io.step_solid import Solid, make_solid
 from jaxkin.io.step_text import step_text
 from jaxkin.io.step_tree import nameless_occurrences, placed_parts
@@ -62,9 +63,12 @@ def read_step(
     unit_name, metres = length_unit(text, path.name)
     off, relative = uncertainty(text), text_rounding(text)
     placed = placed_parts(text, path.name)
+    text, sheets = solids_alone(text)
     read = partial(instances, products=nameless_occurrences(text), placements=FilePlacements(text))
     found, defects = _instances(one_color_each(text).encode("latin-1"), read, limit)
-    defects += missing(text, placed, found) + far_away(found)
+    placed, bare = _with_solids(text, placed, len(found))
+    _tell_left_out(path.name, sheets, [name for name in bare if name not in sheets], _documents(text))
+    defects += missing(text, sum(placed.values()), found) + far_away(found)
     names = unique(_name(instance, number) for number, instance in enumerate(found, start=1))
     solids: dict[bytes, Solid] = {}  # many instances are of one
     parts = []
@@ -109,6 +113,7 @@ def _instances(
         plain = list(read(convert(data.replace(b"STYLED_ITEM", b"UNSTYLED_ITEM"), limit)[0]))
         colors = [it.color for it in found] if len(plain) == len(found) else [None] * len(plain)
         found = [replace(bare, color=color) for bare, color in zip(plain, colors, strict=True)]
+    found = without_tessellations(found)
     if not found:
         why = f" ({'; '.join(damages)})" if damages else ""
         raise ValueError(f"{limit.name} is damaged: none of its solids can be made{why}; export it again")
@@ -129,14 +134,40 @@ def _checked(path: Path) -> str:
         )
     text = step_text(path.read_bytes(), path.name)
     if not _SOLIDS.search(text):
-        if elsewhere := dict.fromkeys(_DOCUMENT.findall(text)):
-            names = [name.encode("latin-1").decode("utf-8", "replace") for name in elsewhere]
+        if elsewhere := _documents(text):
             raise ValueError(
-                f"{path.name} holds no solids: it places those of other files, {listed(names)}; "
+                f"{path.name} holds no solids: it places those of other files, {listed(elsewhere)}; "
                 "export the assembly with all parts in one file"
             )
         raise ValueError(f"{path.name} holds no solids, only surfaces, curves or nothing: export the parts as solids")
     return text
+
+
+def _documents(text: str) -> list[str]:
+    """List the names of other files that a file refers to."""
+    return [name.encode("latin-1").decode("utf-8", "replace") for name in dict.fromkeys(_DOCUMENT.findall(text))]
+
+
+def _with_solids(text: str, placed: Mapping[str, int], found: int) -> tuple[dict[str, int], list[str]]:
+    """Find how often parts are placed whose shapes hold solids, and the names of the others: looked up where fewer are
+    `found` than are placed."""
+    if found >= sum(placed.values()):
+        return dict(placed), []
+    bare = {number: name for number, name in StepShapes(text).without_solids().items() if number in placed}
+    names = [*dict.fromkeys(name or "without a name" for name in bare.values())]
+    return {number: times for number, times in placed.items() if number not in bare}, names
+
+
+def _tell_left_out(source: str, sheets: Sequence[str], bare: Sequence[str], documents: Sequence[str]) -> None:
+    """Warn of surfaces and of parts without solids, which are left out."""
+    said = []
+    if sheets:
+        said.append(f"open surfaces of {listed([*map(repr, sheets)])} bound no solid")
+    if bare:
+        elsewhere = f", and it refers to other files, {listed(documents)}" if documents else ""
+        said.append(f"it places {listed([*map(repr, bare)])} without a solid{elsewhere}")
+    if said:
+        warnings.warn(f"{source}: {'; '.join(said)}: left out; export them as solids if they matter", stacklevel=3)
 
 
 def _name(instance: Instance, number: int) -> str:

@@ -22,6 +22,9 @@ MAX_FAR = 2e4
 """Distance of a part from an origin over its size up to which single precision leaves it right to a thousandth of its
 size. Small screws of an aileron are 6e2 of their size away."""
 
+_SAME_BOX = 0.02
+"""Of the size of a solid: how far the box of its tessellation may be off its own; chords cut off less."""
+
 _OUTER = re.compile(r"\b(?:MANIFOLD_SOLID_BREP|BREP_WITH_VOIDS|FACETED_BREP)\s*\(\s*'(?:[^']|'')*'\s*,\s*#(\d+)")
 
 _SHELL = re.compile(r"#(\d+)\s*=\s*CLOSED_SHELL\s*\(\s*'(?:[^']|'')*'\s*,\s*\(([^()]*)\)")
@@ -56,6 +59,26 @@ def unsound(triangles: Triangles, tolerance: float) -> list[Defect]:
         what = "it cuts itself, or bodies touch or overlap in it"
         return [Defect(what, place, "unite them if they move apart", False)]
     return []
+
+
+def without_tessellations(found: Sequence[Instance]) -> list[Instance]:
+    """Leave out the tessellation of a solid that the same product has with exact geometry, as AP242 allows."""
+    exact: dict[tuple[str, ...], list[tuple[Points, Points]]] = {}
+    for each in found:
+        if each.path and not each.mesh.tessellated:
+            exact.setdefault(each.path, []).append(_box(each))
+    return [each for each in found if not (each.mesh.tessellated and _among(_box(each), exact.get(each.path, ())))]
+
+
+def _box(instance: Instance) -> tuple[Points, Points]:
+    """Find the two opposite corners of the box of an instance, which is along the axes of its mesh."""
+    return instance.pose @ [*instance.mesh.outline[0], 1.0], instance.pose @ [*instance.mesh.outline[-1], 1.0]
+
+
+def _among(box: tuple[Points, Points], others: Sequence[tuple[Points, Points]]) -> bool:
+    """Tell whether a box is one of some others."""
+    near = _SAME_BOX * np.linalg.norm(box[1] - box[0])
+    return any(max(np.abs(one - other).max() for one, other in zip(box, each, strict=True)) <= near for each in others)
 
 
 def far_away(found: Sequence[Instance]) -> list[str]:

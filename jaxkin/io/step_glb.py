@@ -21,6 +21,7 @@ from jaxkin.geometry.pose import Transform
 from jaxkin.io.gltf_colors import Color, from_gltf
 from jaxkin.io.names import cleaned, unique
 from jaxkin.io.step_placements import SINGLE, FilePlacements, Placement
+from jaxkin.io.step_side import Triangles, areas
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,6 +36,9 @@ class ProductMesh:
     """The index into `faces` of each triangle."""
     faces: tuple[dict[str, Any] | None, ...]
     """Analytic faces; None where the surface is none that cascadio names."""
+    tessellated: bool = False
+    """Whether the file has the solid as triangles only, as AP242 may: then no face is named, and normals are those of
+    the triangles."""
 
     @cached_property
     def key(self) -> bytes:
@@ -130,14 +134,33 @@ def _placement(node: dict[str, Any], placements: FilePlacements | None) -> Place
 def _mesh(tree: dict[str, Any], binary: bytes, primitives: list[dict[str, Any]]) -> ProductMesh:
     triangles, normals, face_of = [np.zeros((0, 3, 3))], [np.zeros((0, 3, 3))], [np.zeros(0, int)]
     faces: list[dict[str, Any] | None] = []
+    exact = False
     for primitive in primitives:
         if described := _faces(primitive):
             rows = _array(tree, binary, primitive["indices"]).reshape(-1, 3)
-            triangles.append(_array(tree, binary, primitive["attributes"]["POSITION"]).astype(float)[rows])
-            normals.append(_array(tree, binary, primitive["attributes"]["NORMAL"]).astype(float)[rows])
+            corners = _array(tree, binary, primitive["attributes"]["POSITION"]).astype(float)[rows]
+            triangles.append(corners)
+            exact = exact or "NORMAL" in primitive["attributes"]
+            if "NORMAL" in primitive["attributes"]:
+                normals.append(_array(tree, binary, primitive["attributes"]["NORMAL"]).astype(float)[rows])
+            else:
+                normals.append(_flat_normals(corners))
             face_of.append(_array(tree, binary, described["faceIndices"]).astype(int) + len(faces))
             faces += described["faces"]
-    return ProductMesh(np.concatenate(triangles), np.concatenate(normals), np.concatenate(face_of), tuple(faces))
+    return ProductMesh(
+        np.concatenate(triangles),
+        np.concatenate(normals),
+        np.concatenate(face_of),
+        tuple(faces),
+        tessellated=bool(faces) and not exact,
+    )
+
+
+def _flat_normals(corners: Triangles) -> Triangles:
+    """Compute the normal of each triangle, at its three corners; zero for one without area."""
+    across = areas(corners)
+    lengths = np.linalg.norm(across, axis=-1, keepdims=True)
+    return np.repeat((across / np.where(lengths > 0, lengths, 1.0))[:, None], 3, axis=1)
 
 
 def _faces(primitive: dict[str, Any]) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -14,9 +14,12 @@ from jaxkin.geometry.fit_together import Piece, fit_together
 from jaxkin.geometry.merge import merge_faces
 from jaxkin.geometry.part import Face, Part
 from jaxkin.geometry.pose import Points, Transform, apply, unit
+from jaxkin.geometry.shells import volume
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere, Surface
 from jaxkin.geometry.triangles import Triangles, double_areas
+from jaxkin.geometry.weld import weld
 from jaxkin.io.gltf_colors import Color
+from jaxkin.io.mesh_regions import recovered_faces
 from jaxkin.io.step_check import Defect, unsound
 from jaxkin.io.step_glb import ProductMesh
 from jaxkin.io.step_side import points_outwards, winding
@@ -41,6 +44,9 @@ met with 2.6e-3."""
 
 _OTHERS = ("torus",)
 """Kinds that the reader of STEP files names, and that are none of the four: nothing is fitted to these."""
+
+
+_TESSELLATED = "the file has its triangles only, from which its faces are recovered: export it with exact geometry"
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,6 +74,8 @@ def make_solid(mesh: ProductMesh, metres: float, uncertainty: float = 0.0) -> So
     triangles = mesh.triangles / metres
     tolerance = rounding(triangles)
     size = float(np.linalg.norm(np.ptp(triangles.reshape(-1, 3), axis=0))) if len(triangles) else 0.0
+    if mesh.tessellated:
+        return _tessellated(triangles, tolerance)
     faces, notes, damages, repaired = [], [], [], False
     rows_of = [np.flatnonzero(mesh.face_of == index) for index in range(len(mesh.faces))]
     surfaces = _surfaces(mesh, triangles, rows_of, metres, tolerance)
@@ -92,6 +100,18 @@ def make_solid(mesh: ProductMesh, metres: float, uncertainty: float = 0.0) -> So
         faces.append(Face(label, surface, corners))
     defects = [] if repaired or not len(triangles) else unsound(triangles, tolerance)
     return Solid(merge_faces(faces, tolerance), triangles, tuple(notes), tuple(damages), tuple(defects))
+
+
+def _tessellated(triangles: Triangles, tolerance: float) -> Solid:
+    """Make the solid of triangles whose faces are not known: they are recovered from it, as those of a mesh are."""
+    welded = weld(triangles, 2 * tolerance)
+    corners = welded.points[welded.triangles]
+    if volume(corners) < 0:
+        welded = replace(welded, triangles=welded.triangles[:, ::-1])
+        corners = corners[:, ::-1]
+    defects = unsound(corners, tolerance)
+    faces, notes = ((), []) if any(it.damage for it in defects) else recovered_faces(welded, tolerance)
+    return Solid(faces, corners, (_TESSELLATED, *notes), (), tuple(defects))
 
 
 def _surfaces(

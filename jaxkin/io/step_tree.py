@@ -11,8 +11,9 @@ MAX_STEP_PARTS = 20_000
 """Parts of a file; each takes some thousandths of a second."""
 
 
-def placed_parts(text: str, name: str) -> int:
-    """Count how many parts the assemblies of a file place; 0 where it has none.
+def placed_parts(text: str, name: str) -> dict[str, int]:
+    """Count how often the assemblies of a file place each part, by the number of its definition; empty where it has
+    none.
 
     `name` is what messages call the file. Each occurrence (NEXT_ASSEMBLY_USAGE_OCCURRENCE) names the assembly and what
     is placed in it. Raises ValueError for more than `MAX_STEP_PARTS`, and where an assembly holds itself.
@@ -30,7 +31,8 @@ def placed_parts(text: str, name: str) -> int:
     for each in nx.topological_sort(tree):
         above = sum(times[assembly] for assembly, _ in tree.in_edges(each))
         times[each] = min(above or 1, MAX_STEP_PARTS + 1)  # enough to know
-    if (parts := sum(times[each] for each in tree if tree.out_degree(each) == 0)) > MAX_STEP_PARTS:
+    parts = {each: times[each] for each in tree if tree.out_degree(each) == 0}
+    if sum(parts.values()) > MAX_STEP_PARTS:
         raise ValueError(f"{name} holds more than {MAX_STEP_PARTS} parts: export it part by part")
     return parts
 

@@ -223,7 +223,7 @@ def test_a_part_too_far_away_for_single_precision_is_told(tmp_path, monkeypatch)
 @pytest.mark.long
 def test_a_file_that_takes_for_ever_is_given_up(tmp_path, capfd, monkeypatch):
     """The kernel follows a thousand million parts; here nothing keeps it from that but the time."""
-    monkeypatch.setattr(step, "placed_parts", lambda *_: 0)
+    monkeypatch.setattr(step, "placed_parts", lambda *_: {})
     file = tmp_path / "bad.step"
     file.write_text(doubled(40))
     begin = time.monotonic()
