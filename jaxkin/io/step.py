@@ -19,7 +19,7 @@ from jaxkin.io.step_check import far_away, missing, without_tessellations
 from jaxkin.io.step_colors import one_color_each
 from jaxkin.io.step_convert import convert
 from jaxkin.io.step_glb import Instance, instances
-from jaxkin.io.step_placements import FilePlacements
+from jaxkin.io.step_placements import FilePlacements, check_not_mirrored
 from jaxkin.io.step_rounding import corner_rounding, place_rounding, text_rounding
 from jaxkin.io.step_shapes import StepShapes, solids_alone
 from jaxkin.io.step_solid import Solid, make_solid
@@ -63,6 +63,7 @@ def read_step(
     unit_name, metres = length_unit(text, path.name)
     off, relative = uncertainty(text), text_rounding(text)
     placed = placed_parts(text, path.name)
+    check_not_mirrored(text, path.name)
     text, sheets = solids_alone(text)
     read = partial(instances, products=nameless_occurrences(text), placements=FilePlacements(text))
     found, defects = _instances(one_color_each(text).encode("latin-1"), read, limit)

@@ -29,6 +29,11 @@ _STATEMENT = re.compile(r"\s*#(\d+)\s*=\s*(\w+)\s*\((.*)\)\s*", re.S)
 _REFERENCE = re.compile(r"#(\d+)|\$")
 
 
+_OPERATOR = "CARTESIAN_TRANSFORMATION_OPERATOR_3D"
+_BY_OPERATOR = re.compile(r"\bREPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION\s*\(\s*#(\d+)")
+_SHAPE = re.compile(r"\s*#(\d+)\s*=\s*\w*SHAPE_REPRESENTATION\s*\(")
+
+
 class Placement(NamedTuple):
     """Where an assembly places what is in it."""
 
@@ -56,6 +61,40 @@ class FilePlacements:
         if not len(found) or (np.abs(found - found[0]) > _NONE).any():
             return None
         return found[0]
+
+
+def check_not_mirrored(text: str, name: str) -> None:
+    """Raise ValueError where the text of a file, called `name`, places a part by a mirror: readers turn it instead."""
+    if _OPERATOR not in text:
+        return
+    statements = text.split(";")
+    bodies = {
+        found[1]: [word.strip().lstrip("#") for word in found[3].split(",")]
+        for statement in statements
+        if _OPERATOR in statement and (found := _STATEMENT.fullmatch(statement)) and found[2] == _OPERATOR
+    }
+    # x, y, origin, scale, z: an axis that is left out makes no mirror
+    axes = {number: (words[-5], words[-4], words[-1]) for number, words in bodies.items() if len(words) >= 5}
+    triples = dict(_triples(statements, {each for three in axes.values() for each in three}))
+    mirrors = {
+        number
+        for number, three in axes.items()
+        if all(each in triples for each in three) and np.linalg.det([triples[each] for each in three]) < 0
+    }
+    if mirrors and (used := mirrors & _placing(statements)):
+        raise ValueError(
+            f"{name} mirrors a part where it places it (#{min(used, key=int)}, {_OPERATOR}): export the mirrored part "
+            "as one of its own"
+        )
+
+
+def _placing(statements: Sequence[str]) -> set[str]:
+    """Find the numbers of what shapes are placed by; views and annotations are mapped, too."""
+    related = {found[1] for statement in statements if (found := _BY_OPERATOR.search(statement))}
+    named = _named(statements, ("REPRESENTATION_MAP", "MAPPED_ITEM"))
+    shapes = {found[1] for statement in statements if (found := _SHAPE.match(statement))}
+    maps = {number for number, (kind, rest) in named.items() if kind == "REPRESENTATION_MAP" and rest[1] in shapes}
+    return related | {rest[1] for kind, rest in named.values() if kind == "MAPPED_ITEM" and rest[0] in maps}
 
 
 def _placements(statements: Sequence[str], units: Iterable[float]) -> Iterator[Transform]:

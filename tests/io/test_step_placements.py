@@ -8,7 +8,7 @@ import pytest
 from jaxkin.examples import path
 from jaxkin.geometry.pose import inverse
 from jaxkin.io.load import load
-from jaxkin.io.step_placements import FilePlacements
+from jaxkin.io.step_placements import FilePlacements, check_not_mirrored
 
 EXAMPLES = ("fourbar", "slider_crank", "cam", "eighteen_bars", "air_cylinder")
 
@@ -125,3 +125,24 @@ def test_a_placement_that_the_text_does_not_have_is_rounded(tmp_path):
     file.write_text(bare)
     rounded = [part.surface_resolution for part in load(file).parts]
     assert sum(each > 1e-7 for each in rounded) == 1
+
+
+AXES = """#91=DIRECTION('',(0.,1.,0.));#92=DIRECTION('',(-1.,0.,0.));#93=DIRECTION('',(0.,0.,{}));
+#94=CARTESIAN_POINT('',(0.,0.,0.));#90=CARTESIAN_TRANSFORMATION_OPERATOR_3D('',$,$,#91,#92,#94,1.,{});"""
+RELATED = """#80=(REPRESENTATION_RELATIONSHIP('','',#1,#2)REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(#90)
+SHAPE_REPRESENTATION_RELATIONSHIP());"""
+MAPPED = "#80={}REPRESENTATION('',(),#1);#81=REPRESENTATION_MAP(#94,#80);#82=MAPPED_ITEM('',#81,#90);"
+
+
+@pytest.mark.parametrize("used", [RELATED, MAPPED.format("ADVANCED_BREP_SHAPE_")])
+def test_mirrored_placements_are_refused(used):
+    """The modelling kernel turns the part round in place of mirroring it, without a word."""
+    with pytest.raises(ValueError, match=r"^a\.step mirrors a part where it places it \(#90, .*as one of its own$"):
+        check_not_mirrored(AXES.format("-1.", "#93") + used, "a.step")
+    for right_handed in (AXES.format("1.", "#93"), AXES.format("1.", "$")):
+        check_not_mirrored(right_handed + used, "a.step")
+
+
+@pytest.mark.parametrize("used", ["", MAPPED.format("DRAUGHTING_"), "#81=MAPPED_ITEM('',#99,#90);"])
+def test_mirrors_that_place_no_part_are_none(used):
+    check_not_mirrored(AXES.format("-1.", "#93") + used, "a.step")
