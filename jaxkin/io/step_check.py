@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from jaxkin.geometry.pose import Points, Transform, apply
-from jaxkin.geometry.shells import open_loops, volume, wrong_side
+from jaxkin.geometry.shells import open_loops, shells, volume, wrong_side
 from jaxkin.geometry.triangles import Triangles, total_area
-from jaxkin.geometry.weld import weld
+from jaxkin.geometry.weld import Welded, weld
 from jaxkin.io.step_glb import Instance
 from jaxkin.io.step_rounding import SINGLE
 
@@ -47,14 +47,31 @@ class Defect:
 
 
 def unsound(triangles: Triangles, tolerance: float) -> list[Defect]:
-    """Find what is amiss in the triangles of a solid: holes, no volume, or that it cuts itself; the first of these."""
+    """Find what is amiss in the triangles of a solid: holes, no volume, or else several solids and what cuts itself."""
     welded = weld(triangles, 2 * tolerance)
     if holes := open_loops(welded, tolerance):
         return [Defect("it is not closed, there is a hole", holes[0].mean(axis=0), "a face is missing or wrong", True)]
     if volume(triangles) <= tolerance * total_area(triangles):
         middle = triangles.mean(axis=(0, 1))
         return [Defect("it holds no volume, or is inside out", middle, "a face is missing or wrong", True)]
-    # no damage: its faces are known exactly, and overlapping bodies are common in real assemblies
+    return [*_several(welded), *_cut(triangles, tolerance)]
+
+
+def _several(welded: Welded) -> list[Defect]:
+    """Find whether a part is made of several solids: some systems write a whole mechanism so."""
+    corners = welded.points[welded.triangles]
+    pieces = [corners[rows] for rows in shells(welded)]
+    sizes = {number: size for number, piece in enumerate(pieces) if (size := volume(piece)) > 0}  # others are cavities
+    if len(sizes) < 2:
+        return []
+    smallest = pieces[min(sizes, key=lambda number: sizes[number])]
+    what = f"it is made of {len(sizes)} solids that count as one body, the smallest"
+    return [Defect(what, smallest.mean(axis=(0, 1)), "export them as parts if they move on each other", False)]
+
+
+def _cut(triangles: Triangles, tolerance: float) -> list[Defect]:
+    """Find where a part cuts itself; no damage: its faces are known exactly, and overlapping bodies are common in real
+    assemblies."""
     if (place := wrong_side(triangles, tolerance, _CUT_SAMPLES)) is not None:
         what = "it cuts itself, or bodies touch or overlap in it"
         return [Defect(what, place, "unite them if they move apart", False)]

@@ -182,6 +182,15 @@ def test_the_tessellation_of_a_solid_beside_it_is_not_another_part(tmp_path, tog
     ]
 
 
+def test_a_part_of_several_solids_says_so(tmp_path):
+    """Some systems write a whole mechanism as the bodies of one part, in which nothing would move without a word."""
+    shell = re.search(rf"#{PLATE} = MANIFOLD_SOLID_BREP\('',#(\d+)\)", HALVES)[1]
+    text = with_lines(HALVES, f"#90000=MANIFOLD_SOLID_BREP('',#{shell});")
+    pin, plate = loaded(tmp_path, with_items(text, PIN, f"#11,#{PIN},#90000")).parts
+    assert sum("it is made of 2 solids that count as one body" in note for note in pin.notes) == 1
+    assert plate.notes == ()
+
+
 def test_damaged_shapes_end():
     """Shells in a circle, representations in a circle, and numbers that are not there."""
     text = """#1=SHAPE_REPRESENTATION('',(#2,#99),#9);#2=SHELL_BASED_SURFACE_MODEL('',(#3,#98));
