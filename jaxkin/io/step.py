@@ -24,7 +24,7 @@ from jaxkin.io.step_rounding import corner_rounding, place_rounding, text_roundi
 from jaxkin.io.step_shapes import StepShapes, solids_alone
 from jaxkin.io.step_solid import Solid, make_solid
 from jaxkin.io.step_text import step_text
-from jaxkin.io.step_tree import nameless_occurrences, placed_parts
+from jaxkin.io.step_tree import nameless_occurrences, placed_parts, simple_occurrences
 from jaxkin.io.step_unit import length_unit, uncertainty
 from jaxkin.io.time_limit import TimeLimit
 
@@ -58,7 +58,7 @@ def read_step(
     not read in time. Warns where the reader met damages, or parts, faces or their triangles are not what the file says.
     """
     path = Path(path)
-    text = _checked(path)
+    text = simple_occurrences(_checked(path))
     limit = TimeLimit.start(path, seconds)
     unit_name, metres = length_unit(text, path.name)
     off, relative = uncertainty(text), text_rounding(text)

@@ -13,8 +13,8 @@ _BEGIN = re.compile(r"(?:\xef\xbb\xbf)?\s*ISO-10303-21\s*;")
 _END = re.compile(r"END-ISO-10303-21\s*;")
 _ANOTHER = re.compile(r"(?<!END-)\bISO-10303-21\s*;")
 _SECTION_END = re.compile(r"\bENDSEC\s*;")
-_DATA = re.compile(r"\bDATA\s*(?:\([^;]*\)\s*)?;")
-_NEXT_DATA = re.compile(r"\bENDSEC\s*;\s*DATA\s*(?:\([^;]*\)\s*)?;")
+_DATA = re.compile(r"\bDATA\s*(?:\([^;]{0,200}\)\s*)?;")
+_NEXT_DATA = re.compile(r"\bENDSEC\s*;\s*DATA\s*(?:\([^;]{0,200}\)\s*)?;")
 
 
 def step_text(data: bytes, name: str) -> str:

@@ -37,6 +37,21 @@ def placed_parts(text: str, name: str) -> dict[str, int]:
     return parts
 
 
+_COMPLEX_OCCURRENCE = re.compile(r"NEXT_ASSEMBLY_USAGE_OCCURRENCE\s*\(\s*\)")
+_COMPLEX = re.compile(r"(\s*#\d+\s*=\s*)\(.*\bPRODUCT_DEFINITION_RELATIONSHIP\s*\(((?:[^'()]|'[^']*')*)\).*\)\s*", re.S)
+
+
+def simple_occurrences(text: str) -> str:
+    """Rewrite occurrences that are complex instances, as of assemblies with quantities, to the form that readers know:
+    they leave the parts of others where these were drawn, without a word."""
+    if not _COMPLEX_OCCURRENCE.search(text):
+        return text
+    return ";".join(
+        _COMPLEX.sub(r"\1NEXT_ASSEMBLY_USAGE_OCCURRENCE(\2,$)", each) if _COMPLEX_OCCURRENCE.search(each) else each
+        for each in text.split(";")
+    )
+
+
 _STRING = r"\s*'((?:[^']|'')*)'\s*"
 _REFERENCE = r"\s*#(\d+)\s*"
 _OCCURRENCE = re.compile(rf"NEXT_ASSEMBLY_USAGE_OCCURRENCE\s*\({_STRING},{_STRING},[^#]*#\d+\s*,{_REFERENCE},")

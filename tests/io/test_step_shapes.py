@@ -191,6 +191,23 @@ def test_a_part_of_several_solids_says_so(tmp_path):
     assert plate.notes == ()
 
 
+@pytest.mark.parametrize("quantity", ["", "QUANTIFIED_ASSEMBLY_COMPONENT_USAGE(#9)"])
+def test_occurrences_as_complex_instances_are_placed(tmp_path, quantity):
+    """The kernel left the part at the origin, without a word."""
+    text = re.sub(
+        r"NEXT_ASSEMBLY_USAGE_OCCURRENCE\('4','rocker','',(#\d+,#\d+),\$\)",
+        r"(ASSEMBLY_COMPONENT_USAGE($)NEXT_ASSEMBLY_USAGE_OCCURRENCE()"
+        rf"PRODUCT_DEFINITION_RELATIONSHIP('4','rocker (left)','',\1)PRODUCT_DEFINITION_USAGE(){quantity})",
+        TEXT,
+    )
+    assert text != TEXT
+    parts = loaded(tmp_path, text).parts
+    assert [part.name for part in parts] == ["ground", "crank", "coupler", "rocker (left)"]
+    assert all(
+        (part.triangles == same.triangles).all() for part, same in zip(parts, load(path("fourbar")).parts, strict=True)
+    )
+
+
 def test_damaged_shapes_end():
     """Shells in a circle, representations in a circle, and numbers that are not there."""
     text = """#1=SHAPE_REPRESENTATION('',(#2,#99),#9);#2=SHELL_BASED_SURFACE_MODEL('',(#3,#98));

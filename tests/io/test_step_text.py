@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gzip
+import time
 import warnings
 
 import pytest
@@ -45,6 +46,15 @@ def test_what_is_around_the_data_changes_nothing(tmp_path, name):
 def test_a_comment_without_an_end_is_left():
     text = "ISO-10303-21;\n#1=X('');/* without end; END-ISO-10303-21;"
     assert step_text(text.encode(), "a.step") == text
+
+
+@pytest.mark.parametrize("repeated", ["/*'", "DATA(", "ENDSEC;DATA(", "END-"])
+def test_hostile_text_is_read_at_once(repeated):
+    """A pattern that looks ahead to the end would take the square of its length: 88 s."""
+    text = f"ISO-10303-21;ENDSEC;{repeated * 200_000}END-ISO-10303-21;"
+    begin = time.process_time()
+    step_text(text.encode(), "a.step")
+    assert time.process_time() - begin < 3.0  # some tenths
 
 
 @pytest.mark.parametrize(
