@@ -18,10 +18,10 @@ from jaxtyping import Float, Int
 
 from jaxkin.geometry.part import box_corners
 from jaxkin.geometry.pose import Transform
+from jaxkin.geometry.triangles import Triangles, double_areas
 from jaxkin.io.gltf_colors import Color, from_gltf
 from jaxkin.io.names import cleaned, unique
 from jaxkin.io.step_placements import SINGLE, FilePlacements, Placement
-from jaxkin.io.step_side import Triangles, areas
 
 
 @dataclass(frozen=True, eq=False)
@@ -158,7 +158,7 @@ def _mesh(tree: dict[str, Any], binary: bytes, primitives: list[dict[str, Any]])
 
 def _flat_normals(corners: Triangles) -> Triangles:
     """Compute the normal of each triangle, at its three corners; zero for one without area."""
-    across = areas(corners)
+    across = double_areas(corners)
     lengths = np.linalg.norm(across, axis=-1, keepdims=True)
     return np.repeat((across / np.where(lengths > 0, lengths, 1.0))[:, None], 3, axis=1)
 
