@@ -25,9 +25,9 @@ _NONE = 1e-12
 _MAX_NEAR = 100
 """Placements that are looked at; real files have a few so near each other, each with its inverse, in two units."""
 
-_STATEMENT = re.compile(r"\s*#(\d+)\s*=\s*(\w+)\s*\((.*)\)\s*", re.S)
+STATEMENT = re.compile(r"\s*#(\d+)\s*=\s*(\w+)\s*\((.*)\)\s*", re.S)
+"""A statement of one kind: its number, its kind, and what is between the parentheses."""
 _REFERENCE = re.compile(r"#(\d+)|\$")
-
 
 _OPERATOR = "CARTESIAN_TRANSFORMATION_OPERATOR_3D"
 _BY_OPERATOR = re.compile(r"\bREPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION\s*\(\s*#(\d+)")
@@ -71,7 +71,7 @@ def check_not_mirrored(text: str, name: str) -> None:
     bodies = {
         found[1]: [word.strip().lstrip("#") for word in found[3].split(",")]
         for statement in statements
-        if _OPERATOR in statement and (found := _STATEMENT.fullmatch(statement)) and found[2] == _OPERATOR
+        if _OPERATOR in statement and (found := STATEMENT.fullmatch(statement)) and found[2] == _OPERATOR
     }
     # x, y, origin, scale, z: an axis that is left out makes no mirror
     axes = {number: (words[-5], words[-4], words[-1]) for number, words in bodies.items() if len(words) >= 5}
@@ -155,7 +155,7 @@ def _named(
     that they name, "" where one is left out."""
     found = {}
     for statement in statements:
-        if any(kind in statement for kind in kinds) and (match := _STATEMENT.fullmatch(statement)):
+        if any(kind in statement for kind in kinds) and (match := STATEMENT.fullmatch(statement)):
             number, kind, rest = match.groups()
             names = tuple(_REFERENCE.findall(rest.rpartition("'")[2]))
             if kind in kinds and len(names) > 1 and (wanted is None or number in wanted):

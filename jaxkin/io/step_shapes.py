@@ -12,8 +12,8 @@ from collections.abc import Iterable, Iterator
 from functools import cached_property
 
 from jaxkin.io.names import cleaned
+from jaxkin.io.step_placements import STATEMENT
 
-_STATEMENT = re.compile(r"\s*#(\d+)\s*=\s*(\w+)\s*\((.*)\)\s*", re.S)
 _NUMBER = re.compile(r"#(\d+)")
 _STRING = re.compile(r"'((?:[^']|'')*)'")
 _ITEMS = re.compile(r"(\s*#\d+\s*=\s*\w*REPRESENTATION\s*\(\s*(?:'(?:[^']|'')*'|\$)\s*,\s*\()([^()]*)(\).*)", re.S)
@@ -38,7 +38,7 @@ class StepShapes:
         self.bodies: dict[str, str] = {}
         self.places: dict[str, int] = {}
         for place, statement in enumerate(self.statements):
-            if found := _STATEMENT.fullmatch(statement):
+            if found := STATEMENT.fullmatch(statement):
                 number, self.kinds[found[1]], self.bodies[found[1]] = found.groups()
                 self.places[number] = place
 

@@ -156,13 +156,13 @@ def drive_forces(
     frictions = loads_and_frictions(acting)[1]
     if not frictions:
 
-        def of_poses(given: Any, acting: ActingNumbers) -> tuple[Inputs, Inputs]:
-            displacements, status, inputs, speeds = given
-            found = changes(drive, known._replace(displacements=displacements, status=status), inputs, speeds)
-            return _in_motion(drive, linkage, status, found, speeds[0], acting)
+        def of_poses(
+            known: KnownMotion, inputs: Mapping[str, Any], speeds: tuple[Inputs, Inputs], acting: ActingNumbers
+        ) -> tuple[Inputs, Inputs]:
+            found = changes(drive, known, inputs, speeds)
+            return _in_motion(drive, linkage, known.status, found, speeds[0], acting)
 
-        given = known.displacements, known.status, motion.inputs, speeds
-        return DriveForces(motion, *on_cores(of_poses, given, numbers, len(linkage.joints)))
+        return DriveForces(motion, *on_cores(of_poses, known, motion.inputs, speeds, numbers))
     found = changes(drive, known, motion.inputs, speeds)
     moving, all_loads = acting_on(drive.unit, True, linkage, found, numbers)
     all_loads, result = with_friction(motion, drive, moving, all_loads, frictions)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -16,8 +16,9 @@ from jaxkin._traced import inside_trace, traced
 from jaxkin.effects.forces.acting import ActingNumbers
 from jaxkin.effects.forces.balance import LARGEST_GROUP
 from jaxkin.effects.forces.given import rows_per_pose
+from jaxkin.mechanism.known_motion import Inputs, KnownMotion
 from jaxkin.solve.device import on_cpu
-from jaxkin.solve.execution.cores import available_cores, in_threads
+from jaxkin.solve.execution.cores import available_cores, in_threads, shard_starts
 from jaxkin.solve.range.groups import in_groups
 
 MIN_SHARD_ENTRIES = 2**17
@@ -25,6 +26,9 @@ MIN_SHARD_ENTRIES = 2**17
 the paper's Fig. 7, with 14 joints, take 31 ms in place of 52; in 10,000 of a four-bar 6.4 ms in place of 5.3, since to
 call programs, to cut and to join takes a millisecond or two, and so these are not cut."""
 
+OfMotion = Callable[[KnownMotion, Mapping[str, Any], Any, ActingNumbers], Any]
+"""A function of a motion, its inputs, their first and second derivatives by time, and what acts. It returns a pytree of
+arrays whose first axis is the poses."""
 OfPoses = Callable[[Any, ActingNumbers], Any]
 """A function of what is given for each pose, a pytree of arrays whose first axis is the poses, and of what acts, of
 which some numbers are given for each pose, too. It returns such a pytree."""
@@ -40,24 +44,29 @@ def by_groups(function: OfPoses, given: Any, acting: ActingNumbers, size: int = 
     return in_groups(of_group, (given, jax.tree.map(jnp.asarray, _rows(acting))), size, axis=0)
 
 
-def on_cores(function: OfPoses, given: Any, acting: ActingNumbers, joints: int) -> Any:
-    """Apply a function, which calls programs, to shards of the poses, and join what it returns.
+def on_cores(
+    function: OfMotion,
+    known: KnownMotion,
+    inputs: Mapping[str, Any],
+    speeds: tuple[Inputs, Inputs] | None,
+    acting: ActingNumbers,
+) -> Any:
+    """Apply a function, which calls programs, to shards of the poses of a motion, and join what it returns.
 
-    `joints` is the number of joints, with whose square the time of a pose grows. Poses are one shard where they are
+    `speeds` are first and second derivatives of the inputs by time, None at rest. Poses are one shard where they are
     few, where numbers are traced, and on a device that is no CPU.
     """
-    poses = jax.tree.leaves(given)[0].shape[0]
+    poses, joints = len(known.status), len(known.displacements)
     count = min(available_cores(), poses * joints**2 // MIN_SHARD_ENTRIES)
-    if count < 2 or not on_cpu() or traced((given, acting)) or inside_trace():
-        return function(given, acting)
-    host = jax.tree.map(np.asarray, (given, _rows(acting)))
-    # shards of equal length share one program; the last one therefore overlaps the one before it
-    length = -(-poses // count)
-    starts = [min(shard * length, poses - length) for shard in range(count)]
+    if count < 2 or not on_cpu() or traced((known, inputs, speeds, acting)) or inside_trace():
+        return function(known, inputs, speeds, acting)
+    host = jax.tree.map(np.asarray, (known.displacements, known.status, inputs, speeds, _rows(acting)))
+    length, starts = shard_starts(poses, count)
 
     def of_shard(start: int) -> Any:
-        given, rows = jax.tree.map(lambda array: array[start : start + length], host)
-        return function(given, _with_rows(acting, rows))
+        displacements, status, inputs, speeds, rows = jax.tree.map(lambda array: array[start : start + length], host)
+        own = known._replace(displacements=displacements, status=status)
+        return function(own, inputs, speeds, _with_rows(acting, rows))
 
     return _joined(starts[-2] + length - starts[-1], in_threads(of_shard, starts, count))
 

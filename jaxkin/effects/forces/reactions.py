@@ -198,13 +198,13 @@ def reactions(
             rows = jax.tree.map(partial(_nan_where, result.locked), rows)._replace(points=rows.points)
     else:
 
-        def of_poses(given: Any, acting: ActingNumbers) -> _JointReactions:
-            displacements, status, inputs, speeds = given
-            found = _moved(drive, known._replace(displacements=displacements, status=status), inputs, speeds)
-            return _without_friction(drive, linkage, status, found, acting)
+        def of_poses(
+            known: KnownMotion, inputs: Mapping[str, Any], speeds: tuple[Inputs, Inputs] | None, acting: ActingNumbers
+        ) -> _JointReactions:
+            found = _moved(drive, known, inputs, speeds)
+            return _without_friction(drive, linkage, known.status, found, acting)
 
-        given = known.displacements, known.status, motion.inputs, speeds
-        rows = on_cores(of_poses, given, numbers, len(linkage.joints))
+        rows = on_cores(of_poses, known, motion.inputs, speeds, numbers)
 
     def named(of_joints: Sequence[Array]) -> Named[Array]:
         return Named("joint", zip(mechanism.joints, of_joints, strict=True))

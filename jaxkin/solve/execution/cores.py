@@ -81,11 +81,18 @@ def run_on_cores(
     if count == 1:
         return function(inputs)
     poses = inputs.shape[1]
-    length = -(-poses // count)
-    # shards of equal length share one program; the last shard therefore overlaps the one before it
-    starts = [min(i * length, poses - length) for i in range(count)]
+    length, starts = shard_starts(poses, count)
     shards = in_threads(lambda start: function(*_shard(system, inputs, length, start)), starts, count)
     return _joined(system, starts[-2] + length - starts[-1], shards)
+
+
+def shard_starts(poses: int, count: int) -> tuple[int, list[int]]:
+    """Cut a range into shards: their length, which is that of all, and the first pose of each.
+
+    Shards of equal length share one program; the last one therefore overlaps the one before it.
+    """
+    length = -(-poses // count)
+    return length, [min(shard * length, poses - length) for shard in range(count)]
 
 
 def in_threads(function: Callable[[Any], Any], each: Sequence[Any], threads: int) -> list[Any]:
