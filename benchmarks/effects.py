@@ -2,9 +2,9 @@
 
     python benchmarks/effects.py [poses] [name of a case ...]
 
-Whole calls of Python functions, compiled before, as users make them, each in turn with a sweep of the same poses. Times
-are of the processor, since the ratio of both is wanted also on a machine that has other work. Rates of parts are
-computed when they are asked for, and are not in the rates here.
+Whole calls of Python functions, compiled before, as users make them, each in turn with a sweep of the same poses: by
+the clock, and by the processor, whose ratio holds on a machine that has other work too. Large sweeps and forces share
+the cores, so that the two differ. Rates of parts are computed when they are asked for, and are not in the rates here.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ RUNS = 7
 def main(poses: int = POSES, *names: str) -> None:
     print(f"{jax.default_backend()}, {poses} poses; times in sweeps\n")
     headings = ("rates", "accel.", "jerk", "static", "inverse dyn.", "reactions", "friction")
-    print(f"{'':<14}{'sweep [ms]':>11}" + "".join(f"{each:>{len(each) + 3}}" for each in headings))
+    print(f"{'':<26}{'sweep [ms]':>11}" + "".join(f"{each:>{len(each) + 3}}" for each in headings))
     for name in names or ("four-bar", "paper, Fig. 7"):
         make, drive = CASES[name]
         mechanism, inputs = make(), drive(poses)
@@ -54,21 +54,23 @@ def main(poses: int = POSES, *names: str) -> None:
         found, sweeps = [], []
         for call in calls.values():
             times = [
-                (_time(lambda m=mechanism, u=inputs: m.sweep(u).displacements), _time(call)) for _ in range(RUNS + 1)
+                (_times(lambda m=mechanism, u=inputs: m.sweep(u).displacements), _times(call)) for _ in range(RUNS + 1)
             ]
             sweep, effect = np.median(times[1:], axis=0)  # the first is compiled
             found.append(effect / sweep)
             sweeps.append(sweep)
-        sweep = float(np.median(sweeps))
-        cells = "".join(f"{value:>{len(each) + 3}.2f}" for value, each in zip(found, headings, strict=True))
-        print(f"{name:<14}{1e3 * sweep:>11.2f}{cells}")
+        for unit, sweep, row in zip(
+            ("clock", "processor"), np.median(sweeps, axis=0), np.transpose(found), strict=True
+        ):
+            cells = "".join(f"{value:>{len(each) + 3}.2f}" for value, each in zip(row, headings, strict=True))
+            print(f"{name + ', ' + unit:<26}{1e3 * sweep:>11.2f}{cells}", flush=True)
 
 
-def _time(call: Callable[[], Any]) -> float:
-    """Seconds of the processor that a call takes."""
-    begin = time.process_time()
+def _times(call: Callable[[], Any]) -> tuple[float, float]:
+    """Seconds that a call takes by the clock, and of the processor."""
+    begin, busy = time.perf_counter(), time.process_time()
     jax.block_until_ready(call())
-    return time.process_time() - begin
+    return time.perf_counter() - begin, time.process_time() - busy
 
 
 if __name__ == "__main__":
