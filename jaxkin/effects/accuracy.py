@@ -7,7 +7,7 @@ import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import jax
 import numpy as np
@@ -16,11 +16,9 @@ from jaxkin._arguments import check_mechanism, one_number, several
 from jaxkin.effects.extended import Extended
 from jaxkin.linkage.coordinates import coordinate, named
 from jaxkin.mechanism.drive_plan import plan_drive
+from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.mechanism.motion import Motion
 from jaxkin.solve.options import CONTINUATION, METHODS, SolverOptions, options_with
-
-if TYPE_CHECKING:
-    from jaxkin.mechanism.mechanism import Mechanism
-    from jaxkin.mechanism.motion import Motion
 
 FORMULA = "formula"
 """Name of the sweep that is computed by formulas, which have no tolerance; other sweeps here do without them."""

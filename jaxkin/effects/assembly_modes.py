@@ -12,7 +12,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import jax.numpy as jnp
 import numpy as np
@@ -29,13 +28,11 @@ from jaxkin.effects.pose_plot import save_displacements
 from jaxkin.linkage.closed_loops import closed_loops
 from jaxkin.linkage.coordinates import coordinate, resolve
 from jaxkin.mechanism.drive_plan import DrivenLoopGroup, plan_drive
+from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mobility.loop_freedoms import loop_freedoms
 from jaxkin.solve.options import SolverOptions, options_with
 from jaxkin.solve.status import Status, default_tolerance
-
-if TYPE_CHECKING:
-    from jaxkin.mechanism.mechanism import Mechanism
 
 MAX_MODES = 4096
 """Most modes that are listed: loop groups that do not depend on each other multiply theirs."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -23,10 +23,8 @@ from jaxkin.geometry.part import size
 from jaxkin.geometry.tree_crossings import Slack, crossings
 from jaxkin.geometry.tree_distances import distances
 from jaxkin.mechanism.lost_contacts import FaceSetting
+from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
-
-if TYPE_CHECKING:
-    from jaxkin.mechanism.mechanism import Mechanism
 
 WITHIN = 0.02
 """Clearance over the size of the mechanism up to which it is measured by default: what is farther away is no concern,

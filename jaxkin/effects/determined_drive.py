@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 from jaxkin._names import listed
 from jaxkin.joints.joint import JointCoordinate
 from jaxkin.mechanism.describe import why_infeasible
+from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mobility.infeasible_drive import infeasible_drive, undriven_freedoms
 from jaxkin.mobility.open_loops import check_closed
-
-if TYPE_CHECKING:
-    from jaxkin.mechanism.mechanism import Mechanism
 
 
 def check_determined(

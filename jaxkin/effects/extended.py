@@ -7,7 +7,7 @@ steps with the Jacobian in float64 gain some ten digits each.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from jaxtyping import Float
@@ -18,10 +18,8 @@ from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.patches import FollowedPoint, FollowedSpline, bicubic, patch_point
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.closed_loops import closed_loops
+from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.topology.structure import LoopGroup
-
-if TYPE_CHECKING:
-    from jaxkin.mechanism.mechanism import Mechanism
 
 DIGITS = 50
 """Decimal digits: the error of the reference is then nothing beside that of float64, also at singular poses."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from enum import StrEnum
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,10 +16,8 @@ from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.trig import TURN
 from jaxkin.joints.joint import Joint, JointCoordinate
 from jaxkin.linkage.host_closure import LoopCoordinates
+from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mobility.infeasible_drive import infeasible_drive, undriven_freedoms
-
-if TYPE_CHECKING:
-    from jaxkin.mechanism.mechanism import Mechanism
 
 MAX_CURVE_STEPS = 20_000
 """Steps along the motion in one direction, at most: some 4000 radians and characteristic lengths of all coordinates

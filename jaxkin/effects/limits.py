@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import jax.numpy as jnp
 import numpy as np
@@ -29,12 +28,10 @@ from jaxkin.linkage.closed_loops import closed_loops
 from jaxkin.linkage.coordinates import coordinate, coordinates
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.joint_limits import rounding
+from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mobility.loop_freedoms import loop_freedoms
 from jaxkin.topology.structure import LoopGroup
-
-if TYPE_CHECKING:
-    from jaxkin.mechanism.mechanism import Mechanism
 
 Ranges = Mapping[JointCoordinate, tuple[float, float]]
 """The lowest and the highest displacement of coordinates, from the assembled pose."""

@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from jax import dtypes
@@ -26,12 +25,10 @@ from jaxkin.effects.region_plot import draw_regions
 from jaxkin.effects.sheets import Sheets
 from jaxkin.linkage.coordinates import coordinates
 from jaxkin.mechanism.drive_plan import plan_drive
+from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mobility.loop_freedoms import loop_freedoms
 from jaxkin.solve.options import options_with
 from jaxkin.solve.status import default_tolerance
-
-if TYPE_CHECKING:
-    from jaxkin.mechanism.mechanism import Mechanism
 
 SAME_VALUE = 1e-9
 """Distance of a value of the grid from that of the modes, over the range, at which it is replaced: rounding."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Container, Sequence
 from functools import partial
 from itertools import product
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -21,6 +21,7 @@ from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.linkage.host_closure import ClosedLoops, LoopCoordinates
 from jaxkin.linkage.start_ranges import start_ranges
 from jaxkin.mechanism.drive_plan import DrivenLoopGroup
+from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.solve.closed_form.assembled_axes import assembled_axes
 from jaxkin.solve.closed_form.formula_displacements import joint_displacements
 from jaxkin.solve.closed_form.group_formulas import GroupFormula, group_formulas
@@ -34,9 +35,6 @@ from jaxkin.solve.status import CLOSED_ROUNDINGS, rounding_residual
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, drive
-
-if TYPE_CHECKING:
-    from jaxkin.mechanism.mechanism import Mechanism
 
 MAX_FORMULAS = 12
 """Most groups whose signs are tried in all combinations, 4096 of them; of more, poses are searched from many starts."""

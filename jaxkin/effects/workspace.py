@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -26,6 +26,7 @@ from jaxkin.linkage.joint_motion import part_transforms
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.drive_plan import DrivePlan, plan_drive
 from jaxkin.mechanism.joint_limits import beyond_as_assembled, with_limited
+from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion, as_point
 from jaxkin.solve.options import SolverOptions, options_with
 from jaxkin.solve.range.poses import RangePoses
@@ -33,9 +34,6 @@ from jaxkin.solve.range.solve_range import displacements
 from jaxkin.solve.status import Status, default_tolerance
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
-
-if TYPE_CHECKING:
-    from jaxkin.mechanism.mechanism import Mechanism
 
 
 @dataclass(frozen=True, eq=False)
