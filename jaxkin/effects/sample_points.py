@@ -11,7 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float, Int
 
-from jaxkin.geometry.triangle_distance import Points, Triangles
+from jaxkin.geometry.triangle_distance import Points
+from jaxkin.geometry.triangles import Triangles, double_areas
 
 _OF_FACE = 16
 """Triangles of a face of which points are taken, the largest ones: one would do but for faces that lie partly on the
@@ -34,7 +35,7 @@ class SurfacePoints(NamedTuple):
 
 def surface_points(triangles: Triangles, labels: Int[np.ndarray, " triangles"]) -> SurfacePoints:
     """Take points of the largest triangles of each label."""
-    area = np.linalg.norm(_normals(triangles), axis=-1)
+    area = np.linalg.norm(double_areas(triangles), axis=-1)
     order = np.lexsort((-area, labels))
     begin = np.flatnonzero(np.diff(labels[order], prepend=-1))
     rank = np.arange(len(order)) - np.repeat(begin, np.diff(begin, append=len(order)))
@@ -52,7 +53,7 @@ def surface_points(triangles: Triangles, labels: Int[np.ndarray, " triangles"]) 
 
 def core_points(triangles: Triangles, labels: Int[np.ndarray, " triangles"]) -> Points:
     """Take points inside of a solid, half-way through it below the largest triangle of each of the largest labels."""
-    normals = _normals(triangles)
+    normals = double_areas(triangles)
     area = np.linalg.norm(normals, axis=-1)
     order = np.lexsort((-area, labels))
     largest = order[np.flatnonzero(np.diff(labels[order], prepend=-1))]
@@ -67,11 +68,6 @@ def core_points(triangles: Triangles, labels: Int[np.ndarray, " triangles"]) -> 
         if len(through):
             found.append(start + direction * float(through.min()) / 2)
     return np.reshape(found, (-1, 3))
-
-
-def _normals(triangles: Triangles) -> Float[np.ndarray, "triangles 3"]:
-    """Compute the normals of triangles, each as long as twice the area."""
-    return np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
 
 
 def _ray(triangles: Triangles, start: np.ndarray, direction: np.ndarray) -> Float[np.ndarray, " _"]:
