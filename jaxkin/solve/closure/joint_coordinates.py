@@ -89,23 +89,22 @@ def as_state(system: LoopSystem, frames_1: Frames, frames_2: Frames, x: Coordina
     """Compute the state from the coordinates `x` of all joints: the inverse of `joint_coordinates`."""
     turns = []
     for (joint, frame), (ball, columns) in system.places.items():
-        chosen, is_turned = x[np.array(columns)], ball in system.turned_balls
+        chosen = x[np.array(columns)]
         if len(columns) == 2:
-            if is_turned:
-                turns.append(from_angles(jnp.stack([*chosen, jnp.zeros_like(chosen[0])])))
+            turn = from_angles(jnp.stack([*chosen, jnp.zeros_like(chosen[0])]))
         elif columns == tuple(range(columns[0], columns[0] + 3)):
-            if is_turned:
-                turns.append(from_angles(chosen))
+            turn = from_angles(chosen)
         else:
             theta, phi, about_normal = chosen
             between = _between(frames_1[joint], frames_2[joint], frame - 1)
-            if is_turned:
-                half, none = 0.5 * about_normal, jnp.zeros_like(theta)
-                turn = jnp.stack([jnp.cos(half), *(jnp.sin(half) * between[2, :3, None])])
-                turns.append(multiply(turn, from_angles(jnp.stack([theta, phi, none]))))
+            half, none = 0.5 * about_normal, jnp.zeros_like(theta)
+            of_line = jnp.stack([jnp.cos(half), *(jnp.sin(half) * between[2, :3, None])])
+            turn = multiply(of_line, from_angles(jnp.stack([theta, phi, none])))
             # also where a loop is cut at the ball: the turn about the normal moves its centre
             first = columns[2] - 2
             x = x.at[first : first + 2].add(_rotated_origin(about_normal, between) - between[:2, 3, None])
+        if ball in system.turned_balls:
+            turns.append(turn)
     return State(x, jnp.stack(turns) if turns else jnp.zeros((0, 4, x.shape[1]), x.dtype))
 
 
