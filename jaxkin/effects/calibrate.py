@@ -86,8 +86,8 @@ def calibrate(
     The fit takes steps of least norm from the given mechanism, so that it finds the solution near it; one that does
     not close at a measured pose is no step. Combinations of unknowns that change nothing measured stay as they are, and
     are named. Raises ValueError for names and shapes that do not fit, a given mechanism that does not close at all
-    measured poses, unknowns that the loops have no room for, data that tell none of the unknowns, and for traced
-    numbers.
+    measured poses, rotations that are half a turn from it, unknowns that the loops have no room for, data that tell
+    none of the unknowns, and for traced numbers.
     """
     check_mechanism(mechanism, "calibrations")
     iterations = whole_number(iterations, "iterations", 1)
@@ -97,6 +97,7 @@ def calibrate(
     motion = mechanism.sweep(driven, options=options)
     _check_start(motion.on_branch)
     data = data_of(mechanism, measured, sigma, len(motion))
+    data.check_turns(motion)
     unknowns, nominal = unknowns_of(mechanism, lengths, frames, markers, measured)
     model = Model(unknowns, data.kinds, tuple(driven), options_with(options))
     inputs = tuple(np.asarray(values, float) for values in driven.values())

@@ -17,6 +17,11 @@ from jaxkin.linkage.coordinates import coordinate
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.targets import Target, middle_of_joints
+from jaxkin.solve.closure.rod_spin import vee
+
+HALF_TURN = -1.0 + 1e-9
+"""Cosine of the angle between two rotations below which they count as half a turn apart: within 4e-5 rad of pi, which
+is less than rotations are measured to."""
 
 
 @dataclass(frozen=True)
@@ -36,8 +41,8 @@ class MeasuredQuantity:
     def residual(self, motion: Motion, measured: Array, markers: Mapping[Target, Any]) -> Float[Array, "poses _"]:
         """Compute how far the motion is from the measured values: computed less measured, radians and lengths.
 
-        Angles differ by less than half a turn. Of rotations it is the rotation vector, sin(angle) long; the translation
-        of a pose is that of the middle of the joints of its part.
+        Angles differ by less than half a turn. Of rotations it is the rotation vector; the translation of a pose is
+        that of the middle of the joints of its part.
         """
         if not isinstance(self.key, Target):
             off = motion.displacements[self.column][:, self.index] - measured
@@ -45,15 +50,22 @@ class MeasuredQuantity:
         if self.key.kind == "point":
             return motion.points(self.key.part, markers.get(self.key, self.key.at)) - measured
         place = motion.transforms[self.key.part]
-        error = place[:, :3, :3] @ jnp.swapaxes(measured[:, :3, :3], 1, 2)
-        turn = 0.5 * jnp.stack(
-            [error[:, 2, 1] - error[:, 1, 2], error[:, 0, 2] - error[:, 2, 0], error[:, 1, 0] - error[:, 0, 1]], axis=1
-        )
+        turn = _rotation_vectors(place[:, :3, :3] @ jnp.swapaxes(measured[:, :3, :3], 1, 2))
         if self.key.kind == "orientation":
             return turn
         middle = middle_of_joints(motion.mechanism.linkage, self.key.part)
         off = place - measured
         return jnp.concatenate([off[:, :3, :3] @ middle + off[:, :3, 3], turn], axis=1)
+
+
+def _rotation_vectors(rotations: Float[Array, "poses 3 3"]) -> Float[Array, "poses 3"]:
+    """Compute axis times angle of rotations, 0 to pi radians; half a turn, which has two signs, is that about x."""
+    sines = vee(jnp.moveaxis(rotations, 0, -1)).T
+    square, cosine = jnp.sum(sines**2, axis=1), 0.5 * (jnp.trace(rotations, axis1=1, axis2=2) - 1.0)
+    none = square == 0
+    sine = jnp.sqrt(jnp.where(none, 1.0, square))
+    scaled = jnp.where(none, 1.0, jnp.arctan2(sine, cosine) / sine)[:, None] * sines
+    return jnp.where((none & (cosine < 0))[:, None], jnp.array([jnp.pi, 0.0, 0.0]), scaled)
 
 
 @dataclass(frozen=True)
@@ -65,6 +77,21 @@ class Data:
     """Measured values, NaN replaced."""
     weights: tuple[Float[np.ndarray, "poses _"], ...]
     """One over the standard deviation of each number of the residuals; zero where nothing was measured."""
+
+    def check_turns(self, motion: Motion) -> None:
+        """Raise ValueError where a measured rotation is half a turn from that of the motion: it may be either way."""
+        for kind, measured, weights in zip(self.kinds, self.values, self.weights, strict=True):
+            if not isinstance(kind.key, Target) or kind.key.kind == "point":
+                continue
+            error = np.asarray(motion.transforms[kind.key.part])[:, :3, :3] @ measured[:, :3, :3].swapaxes(1, 2)
+            cosine = 0.5 * (np.trace(error, axis1=1, axis2=2) - 1.0)
+            if len(opposite := np.flatnonzero((cosine < HALF_TURN) & (weights[:, -1] > 0))):
+                raise ValueError(
+                    f"{kind.name}: at {len(opposite)} of {len(cosine)} measured poses, first at pose {opposite[0]}, "
+                    "the measured rotation is half a turn from that of the given mechanism; measured rotations are "
+                    "displacements from the assembled pose: multiply them from the right by the inverse of the one "
+                    "that was measured there"
+                )
 
 
 def data_of(mechanism: Mechanism, measured: Any, sigma: Any, poses: int) -> Data:

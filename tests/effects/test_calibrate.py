@@ -252,3 +252,18 @@ def test_a_start_that_does_not_close_and_data_that_tell_nothing():
         jk.calibrate(arm(), {"A": np.zeros(3), "B": np.ones(3)}, {"A": np.zeros(3)}, lengths=[("a", "A", "B")])
     with pytest.raises(ValueError, match="outside of jit, vmap and grad"):
         jax.jit(lambda angles: jk.calibrate(arm(), {"A": angles, "B": angles}, {"A": np.zeros(3)}))(np.zeros(3))
+
+
+@pytest.mark.long
+def test_rotations_that_are_far_off_are_no_fit():
+    """A marker that was put on turned: its residuals are as large as the turn, and half a turn tells no direction."""
+    mechanism = fourbar(*GIVEN)
+    drive, turns = {"A": ANGLES}, np.asarray(mechanism.sweep({"A": ANGLES}).transforms["rocker"])[:, :3, :3]
+    target = jk.orientation("rocker")
+    for turn in (1.0, 3.0):  # no length of the crank turns the rocker by as much
+        measured = {target: turns @ rotation(np.array(Z), turn)}
+        assert jk.calibrate(mechanism, drive, measured, lengths=[CRANK], iterations=1).deviation > 0.5 * turn / 3**0.5
+    with pytest.raises(
+        ValueError, match=r"rocker orientation: at 24 of 24 .* half a turn from that of the given mechanism"
+    ):
+        jk.calibrate(mechanism, drive, {target: turns @ rotation(np.array(Z), np.pi)}, lengths=[CRANK])
