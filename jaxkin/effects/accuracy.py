@@ -45,7 +45,8 @@ class WorkPrecisionPoint(NamedTuple):
     seconds: float
     """Time of the sweep, compiled before: the median of several."""
     error: float
-    """Largest error of a pose in radians and characteristic lengths, against the pose in extended precision."""
+    """Largest error of a pose in radians and characteristic lengths, against the pose in extended precision; NaN where
+    none of the compared poses is closed."""
     residual: float
     """Largest closure residual of the closed poses."""
     closed: float
@@ -64,15 +65,18 @@ class WorkPrecision:
     @property
     def advice(self) -> str:
         """What accuracy costs here, in one sentence."""
-        continuation = [point for point in self.points if point.method == CONTINUATION and point.precision == "float64"]
-        best = min(continuation, key=lambda point: point.error)
-        coarse = [point for point in continuation if point.error <= 1e-4]
-        cheap = min(coarse or continuation, key=lambda point: point.seconds)
+        known = [point for point in self.points if np.isfinite(point.error)]
+        if not known:
+            return "None of the compared poses closed: there is no error to tell."
+        double = [each for each in known if each.method == CONTINUATION and each.precision == "float64"] or known
+        best = min(double, key=lambda point: point.error)
+        coarse = [point for point in double if point.error <= 1e-4]
+        cheap = min(coarse or double, key=lambda point: point.seconds)
         more = best.seconds / cheap.seconds - 1
         cost = f"costs {more:.0%} more than" if more >= 0.05 else "costs no more than"
-        single = [point.error for point in self.points if point.precision == "float32"]
+        single = [point.error for point in known if point.precision == "float32"]
         end = f"; float32 stops at {min(single):.0e}" if single else ""
-        alike = [p for p in self.points if p.method != CONTINUATION and p.closed == 1 and p.error <= 10 * best.error]
+        alike = [p for p in known if p.method != best.method and p.closed == 1 and p.error <= 10 * best.error]
         if alike:
             quick = min(alike, key=lambda point: point.seconds)
             end += f"; {quick.method}, as accurate, takes {quick.seconds / best.seconds:.2g} times as long"
@@ -146,7 +150,7 @@ def work_precision(
             found_by = CONTINUATION if by_formula else method
             asked = replace(options, method=found_by, tolerance=tolerance, formulas=by_formula)
             points.append(_measured(mechanism, drive, asked, precision, exact)._replace(method=method))
-    return WorkPrecision(tuple(points), len(reference), len(chosen))
+    return WorkPrecision(tuple(points), len(reference), int(exact.known.sum()))
 
 
 def combinations(
@@ -196,6 +200,8 @@ class _ExactPoses:
 
     def __init__(self, mechanism: Mechanism, motion: Motion, chosen: np.ndarray) -> None:
         self.chosen, self.loop_groups = chosen, []
+        self.known = np.ones(len(chosen), bool)
+        """At which of the places the exact pose was found."""
         driven = [coordinate(mechanism.linkage, name) for name in motion.inputs]
         for loop_group in mechanism.structure.loop_groups:
             columns = [(joint, k) for joint in loop_group.joints for k in range(mechanism.all_joints[joint].freedoms)]
@@ -204,14 +210,17 @@ class _ExactPoses:
                 continue
             loops = Extended(mechanism, loop_group, free)
             rows = self._rows(motion, loop_group.joints)
-            poses = [loops.closed(row)[0] for row in rows]
+            poses, ended = zip(*(loops.closed(row) for row in rows), strict=True)
+            self.known &= ended
             self.loop_groups.append(
                 (loop_group.joints, loops, poses, [np.eye(len(row)) - loops.idle(row) for row in poses])
             )
 
     def error(self, motion: Motion) -> float:
-        """Measure the largest error of the chosen poses that are closed, in radians and characteristic lengths."""
-        closed, largest = np.asarray(motion.closed)[self.chosen], 0.0
+        """Measure the largest error of the known poses that are closed, in radians and characteristic lengths; NaN
+        where none is."""
+        closed = np.asarray(motion.closed)[self.chosen] & self.known
+        largest = 0.0 if closed.any() else np.nan
         for joints, loops, poses, seen in self.loop_groups:
             for row, pose, kept, is_closed in zip(self._rows(motion, joints), poses, seen, closed, strict=True):
                 if is_closed:

@@ -1,10 +1,12 @@
 """What accuracy costs: errors against extended precision, which has its own checks; methods; the advice."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import jaxkin as jk
-from jaxkin.effects.accuracy import TIGHTEST_32, WorkPrecision, WorkPrecisionPoint, combinations
+from jaxkin.effects.accuracy import TIGHTEST_32, WorkPrecision, WorkPrecisionPoint, _ExactPoses, combinations
 from jaxkin.effects.extended import Extended
 from jaxkin.solve.execution.compiler import compilations
 from jaxkin.solve.options import METHODS
@@ -96,8 +98,22 @@ def test_the_table_and_the_advice(tmp_path):
         "dfp, as accurate, takes 50 times as long."
     )
     assert str(work).splitlines()[-1] == work.advice and "rounding" in str(work)
-    picture = work.plot(tmp_path / "work.png")
+    without = replace(work, points=work.points[-1:])
+    assert without.advice == "An error of 2e-14 costs no more than one of 2e-14 here."
+    unknown = replace(work, points=(*work.points, point("bfgs", "float64", 1e-12, 0.1, np.nan)))
+    assert unknown.advice == work.advice and "nan" in str(unknown)
+    assert "no error to tell" in replace(work, points=unknown.points[-1:]).advice
+    picture = unknown.plot(tmp_path / "work.png")
     assert picture.read_bytes().startswith(b"\x89PNG") and [file.name for file in tmp_path.iterdir()] == ["work.png"]
+
+
+@pytest.mark.long
+def test_a_sweep_none_of_whose_poses_closed_has_no_error():
+    mechanism = planar_fourbar(1.0)
+    motion = mechanism.sweep({"A": TURN})
+    exact = _ExactPoses(mechanism, motion, np.arange(0, len(TURN), 8))
+    assert exact.known.all() and exact.error(motion) < 1e-13
+    assert np.isnan(exact.error(replace(motion, status=np.full(len(TURN), Status.STALLED.value))))
 
 
 @pytest.mark.long
