@@ -87,12 +87,15 @@ class Rates:
         return dict(zip(self.motion.mechanism.parts, self.matrices[-1], strict=True))
 
     def __str__(self) -> str:
-        """Say the least and the greatest rate of each coordinate, and at which poses rates are not determined."""
+        """Say the least and the greatest rate of each coordinate, and at which poses rates are not known."""
         lines = [f"{NAMES[self.order]} over {len(self.motion)} poses, for the given ones of {', '.join(self.inputs)}"]
-        for name, unit, row in zip(*self._rows(), strict=True):
+        names, units, rows = self._rows()
+        for name, unit, row in zip(names, units, rows, strict=True):
             if np.isfinite(row).any():
                 low, high = int(np.nanargmin(row)), int(np.nanargmax(row))
                 lines.append(f"  {name} [{unit}]: from {row[low]:.4g} at pose {low} to {row[high]:.4g} at pose {high}")
+        if unknown := int(np.isnan(rows).any(axis=0).sum()):
+            lines.append(f"  not known at {unknown} of {len(self.motion)} poses")
         lines += [f"  {line}" for line in singular_report(self.motion, self.order)]
         return "\n".join(lines)
 

@@ -30,7 +30,8 @@ class ScrewAxes:
     pitch: Float[Array, " poses"]
     """Advance along the axis per radian, in the unit of the mechanism; the `pitch` of `jk.screw` is per turn."""
     angular_speed: Float[Array, " poses"]
-    """Radians per time; zero where the part only slides or rests, NaN at poses that have no rates (`Rates.closed`)."""
+    """Radians per time; zero where the part only slides or rests, NaN at poses that have no rates: that are not closed
+    (`Rates.closed`), or at which a given rate is NaN."""
     part: str
     unit: str
     """Unit of lengths of the mechanism."""
@@ -38,7 +39,7 @@ class ScrewAxes:
     def __str__(self) -> str:
         """Say the least and the greatest angular speed and pitch, and at which poses the part does not turn."""
         speed = np.asarray(self.angular_speed)
-        lines = [f"Screw axes of {self.part} over {len(speed)} poses, {np.isfinite(speed).sum()} of them closed"]
+        lines = [f"Screw axes of {self.part} over {len(speed)} poses, {np.isfinite(speed).sum()} of them with rates"]
         unit = self.unit or "length"
         for name, of, row in (("angular speed", "rad/time", speed), ("pitch", f"{unit}/rad", np.asarray(self.pitch))):
             if len(turning := np.flatnonzero(speed > 0)):
@@ -74,7 +75,8 @@ def screw_axes(velocities: Rates, part: str) -> ScrewAxes:
             f"{velocities.order}: of accelerations and jerks there are none"
         )
     omega, place = velocities.angular(part), velocities.motion.transforms[part]
-    turns = jnp.sum(omega**2, axis=1, keepdims=True) > _rounding(velocities)[:, None] ** 2
+    square = jnp.sum(omega**2, axis=1, keepdims=True)
+    known, turns = velocities.closed & ~jnp.isnan(square[:, 0]), square > _rounding(velocities)[:, None] ** 2
     # poses without an axis are zeros here, since NaN would spoil the derivatives of all poses, and NaN at the end
     omega, shift, velocity = (
         jnp.where(turns, rows, 0.0) for rows in (omega, place[:, :3, 3], velocities.transforms[part][:, :3, 3])
@@ -89,7 +91,7 @@ def screw_axes(velocities: Rates, part: str) -> ScrewAxes:
     direction, point, moving, pitch = (
         jnp.where(turns, rows, jnp.nan) for rows in (omega / speed, point, moving, pitch)
     )
-    angular_speed = jnp.where(velocities.closed, jnp.where(turns, speed, 0.0)[:, 0], jnp.nan)
+    angular_speed = jnp.where(known, jnp.where(turns, speed, 0.0)[:, 0], jnp.nan)
     unit = velocities.motion.mechanism.unit
     return ScrewAxes(direction, point, moving, pitch[:, 0], angular_speed, part, unit)
 

@@ -222,13 +222,13 @@ def test_screw_axes_print_their_ranges_and_where_there_are_none():
     nut = jk.Mechanism.build(
         fixed=["g"], unit="mm", joints=[jk.screw("S", "g", "nut", point=(1, 2, 0), axis=Z, pitch=0.5)]
     )
-    motion = nut.sweep({"S": np.array([0.0, 2.0, 3.0, np.nan])})
-    axes = jk.screw_axes(jk.velocities(motion, {"S": np.array([3.0, 0.0, -1.0, 1.0])}), "nut")
+    motion = nut.sweep({"S": np.array([0.0, 2.0, 3.0, np.nan, 1.0])})
+    axes = jk.screw_axes(jk.velocities(motion, {"S": np.array([3.0, 0.0, -1.0, 1.0, np.nan])}), "nut")
     assert str(axes).splitlines() == [
-        "Screw axes of nut over 4 poses, 3 of them closed",
+        "Screw axes of nut over 5 poses, 3 of them with rates",
         "  angular speed [rad/time]: from 1 at pose 2 to 3 at pose 0",
         "  pitch [mm/rad]: 0.07958",  # 0.5 mm a turn
-        "  only slides or rests in 1 of 4 poses, first at pose 1: no axis there",
+        "  only slides or rests in 1 of 5 poses, first at pose 1: no axis there",
     ]
 
 

@@ -81,6 +81,7 @@ def test_poses_that_do_not_close_have_no_rates():
     assert 0 < np.sum(rates.closed) < len(motion)
     assert np.all(np.asarray(rates.coordinates["D"])[~np.asarray(rates.closed)] == 0)
     assert np.all(np.isfinite(rates.coordinates["D"]))
+    assert f"not known at {np.sum(~rates.closed)} of {len(motion)} poses" in str(rates)
 
 
 @pytest.mark.long
