@@ -218,6 +218,8 @@ def _range_and_held(drive: Mapping[Any, Any]) -> tuple[str, PerPose, dict[str, P
             f"the range of {key!r} must be two displacements or more, all finite, as np.linspace(0, 2 * np.pi, 73), "
             f"got {got}"
         )
+    if empty := [name for name, some in given.items() if not len(some)]:
+        raise ValueError(f"the displacement at which {empty[0]!r} is held must be one number, got none")
     return key, inputs, given
 
 

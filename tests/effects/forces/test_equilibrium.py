@@ -189,6 +189,8 @@ def test_bad_ranges_are_refused():
     for given, got in ((np.zeros(1), "got 1"), (np.array([0.0, np.nan, 1.0]), "got some that are not finite")):
         with pytest.raises(ValueError, match=f"must be two displacements or more, all finite, .*{got}"):
             jk.equilibrium(mechanism, {"A": given})
+    with pytest.raises(ValueError, match="at which 'D' is held must be one number, got none"):
+        jk.equilibrium(mechanism, {"A": np.arange(3.0), "D": []})
     with pytest.raises(ValueError, match="nothing acts"):
         jk.equilibrium(pendulum(), {"A": np.linspace(0, 1, 3)})
 
