@@ -15,7 +15,7 @@ from jaxtyping import Array, Float, Int
 
 from jaxkin._grouped import MAX_LINES
 from jaxkin._named import Named
-from jaxkin._names import nearest
+from jaxkin._names import listed, nearest
 from jaxkin.effects.forces.acting import (
     STANDARD_GRAVITY,
     Acting,
@@ -92,9 +92,10 @@ class Reactions:
         forces = {name: np.linalg.norm(np.asarray(rows), axis=1) for name, rows in self.forces.items()}
         if not closed.any():
             return lines[0]
-        if not any(np.isfinite(each).any() for each in forces.values()):
+        unknown = [name for name, each in forces.items() if not np.isfinite(each).any()]
+        if len(unknown) == len(forces):
             return f"{lines[0]}\n  unknown: a load or a rate is no finite number in any of them"
-        order = sorted(forces, key=lambda name: -float(np.nanmax(forces[name])))
+        order = sorted(set(forces).difference(unknown), key=lambda name: -float(np.nanmax(forces[name])))
         width = max(map(len, order[:MAX_LINES]))
         for name in order[:MAX_LINES]:
             torque = np.linalg.norm(np.asarray(self.torques[name]), axis=1)
@@ -104,7 +105,9 @@ class Reactions:
             )
         if len(order) > MAX_LINES:
             lines.append(f"  and {len(order) - MAX_LINES} more: see .forces and .torques")
-        lines += self._what_is_held(max(float(np.nanmax(each)) for each in forces.values()))
+        if unknown:
+            lines.append(f"  unknown in {listed(unknown)}: a load there is no finite number in any of them")
+        lines += self._what_is_held(float(np.nanmax(forces[order[0]])))
         lines += [f"  {line}" for line in singular_report(self.motion, ORDER)]
         lines += [f"  {line}" for line in (self.friction.lines() if self.friction else ())]
         lines += [f"  {each}" for each in self.undetermined[:MAX_LINES]]
@@ -116,10 +119,10 @@ class Reactions:
         found = []
         for name, joint in self.motion.mechanism.joints.items():
             for k, full_name in enumerate(joint.full_names):
-                load = np.abs(np.asarray(self.held[name][:, k]))
-                if np.nanmax(load) > HELD * most * (1.0 if is_length(joint.coordinates[k]) else lever):
+                load = float(np.nanmax(np.abs(np.asarray(self.held[name][:, k])), initial=0.0))
+                if load > HELD * most * (1.0 if is_length(joint.coordinates[k]) else lever):
                     unit = units_of(self.motion, full_name)[0]
-                    found.append(f"  {full_name} has no drive: up to {np.nanmax(load):.3g} {unit} would hold it")
+                    found.append(f"  {full_name} has no drive: up to {load:.3g} {unit} would hold it")
         more = [f"  and {len(found) - MAX_HELD} more without a drive: see .held"] if len(found) > MAX_HELD else []
         return [*found[:MAX_HELD], *more]
 

@@ -162,6 +162,15 @@ def test_loads_that_are_no_numbers_are_told(motion, masses):
     assert "unknown" in str(found)
 
 
+def test_a_load_that_is_no_number_leaves_the_other_joints_known():
+    joints = [jk.revolute(name, "base", f"arm {name}", point=(0, 0, 0), axis=Z) for name in ("A", "B")]
+    motion = jk.Mechanism.build(fixed=["base"], joints=joints).sweep({"A": [0.0, 0.1], "B": [0.0, 0.1]})
+    rows = np.full((2, 3), np.nan)
+    loads = [jk.force("arm A", (1, 0, 0), rows), jk.force("arm B", (1, 0, 0), (0.0, 3.0, 0.0))]
+    said = str(jk.reactions(motion, applied=loads)).splitlines()
+    assert said[1].startswith("  B  force up to 3 N at pose 0") and said[2].startswith("  unknown in A: ")
+
+
 @pytest.mark.long
 def test_a_freedom_without_a_drive_is_told():
     """Two hinges in a row, the second without a drive: what gravity asks of it nothing holds."""
