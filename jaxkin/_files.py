@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from warnings import catch_warnings, filterwarnings
 
 if TYPE_CHECKING:
+    import numpy as np
     from matplotlib.figure import Figure
 
 DPI = 150
@@ -69,4 +70,21 @@ def save_figure(figure: Figure, path: Path) -> Path:
         # pass labels of axes of one scale may be cut off
         figure.draw_without_rendering()
         figure.savefig(draft, dpi=DPI, format=path.suffix.lstrip(".") or "png")
+    return path
+
+
+def quoted(text: str) -> str:
+    """Write a text in quotes, as a field of comma-separated values: a quote in it becomes two."""
+    return '"' + text.replace('"', '""') + '"'
+
+
+def save_table(heading: Sequence[str], first: Iterable[str], columns: Iterable[np.ndarray], path: Path) -> Path:
+    """Write comma-separated values: a line of headings, then lines of a text and of a number of each column.
+
+    Every number is the shortest decimal that reads back as the same number of its precision. Returns the path.
+    """
+    numbers = [[number.removesuffix(".0") for number in column.astype(str).tolist()] for column in columns]
+    lines = [heading, *zip(first, *numbers, strict=True)]
+    with whole(path) as draft:
+        draft.write_text("".join(",".join(line) + "\n" for line in lines), encoding="utf-8")
     return path

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Bool, Float
 
-from jaxkin._files import whole
+from jaxkin._files import quoted, save_table
 from jaxkin.effects.pose_plot import draw_lines
 from jaxkin.mechanism.mechanism import Mechanism
 
@@ -96,13 +96,8 @@ class Calibration:
 
     def save(self, path: str | Path) -> Path:
         """Write the unknowns as comma-separated values: given, fitted, standard error; returns the path."""
-        path = Path(path)
-        lines = ["name,given,fitted,standard error"]
-        for name, *numbers in zip(self.names, self.given, self.values, self.standard_errors, strict=True):
-            lines.append(",".join([f'"{name}"', *(f"{number:.12g}" for number in numbers)]))
-        with whole(path) as draft:
-            draft.write_text("\n".join(lines) + "\n", encoding="utf-8")
-        return path
+        columns = self.given, self.values, self.standard_errors
+        return save_table(["name", "given", "fitted", "standard error"], map(quoted, self.names), columns, Path(path))
 
 
 def _error(error: float) -> str:

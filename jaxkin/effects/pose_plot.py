@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin._files import save_figure, whole
+from jaxkin._files import quoted, save_figure, save_table
 from jaxkin.joints.joint import Joint
 
 NAMED = 12
@@ -91,11 +91,7 @@ def _lines(
 
 def save_rows(names: Sequence[str], rows: Float[np.ndarray, "rows poses"], path: Path) -> Path:
     """Write rows as columns of comma-separated values, one line a pose, below a line of names; returns the path."""
-    heading = ",".join(["pose", *(f'"{name}"' for name in names)])
-    table = np.column_stack([np.arange(rows.shape[1]), rows.T])
-    with whole(path) as draft:
-        np.savetxt(draft, table, ["%d"] + ["%.9g"] * len(names), ",", header=heading, comments="")
-    return path
+    return save_table(["pose", *map(quoted, names)], map(str, range(rows.shape[1])), rows, path)
 
 
 def save_displacements(joints: Sequence[Joint], displacements: Sequence[Float[Any, "poses _"]], path: Path) -> Path:

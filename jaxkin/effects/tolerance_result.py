@@ -12,7 +12,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin._files import whole
+from jaxkin._files import quoted, save_table
 from jaxkin._names import closest
 from jaxkin._traced import traced
 from jaxkin.effects.tolerance import Tolerance, named
@@ -198,14 +198,10 @@ class Tolerances:
 
     def save(self, path: str | Path) -> Path:
         """Write the rows of the table as comma-separated values; returns the path."""
-        path = Path(path)
-        lines = ["name,nominal,limit,standard deviation,sensitivity,contribution percent"]
+        heading = ["name", "nominal", "limit", "standard deviation", "sensitivity", "contribution percent"]
         columns = (self.nominal_lengths, self.limits, self.deviations, self.sensitivities, self.contributions)
-        for key, *numbers in zip(self.keys, *columns, strict=True):
-            lines.append(",".join([f'"{named(key)}"', *(f"{float(number):.12g}" for number in numbers)]))
-        with whole(path) as draft:
-            draft.write_text("\n".join(lines) + "\n", encoding="utf-8")
-        return path
+        names = (quoted(named(key)) for key in self.keys)
+        return save_table(heading, names, [np.asarray(column, float) for column in columns], Path(path))
 
 
 @dataclass(frozen=True)

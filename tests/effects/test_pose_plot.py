@@ -1,5 +1,6 @@
-"""Lines over the poses of a motion, as they are drawn."""
+"""Numbers over the poses of a motion, as they are drawn and saved."""
 
+import csv
 from pathlib import Path
 
 import numpy as np
@@ -67,3 +68,12 @@ def test_labels_are_not_cut_off(tmp_path):
         axes.set_aspect("equal")
     save_figure(figure, tmp_path / "views.png")
     assert min(axes.get_tightbbox().x0 for axes in figure.axes) >= 0
+
+
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+def test_saved_numbers_and_names_are_read_back(dtype, tmp_path):
+    names, rows = ['bolt 1/4"', "a, b"], np.array([[1 / 3, 1e-17, 7.0], [-0.1, np.nan, np.inf]], dtype)
+    with pose_plot.save_rows(names, rows, tmp_path / "rows.csv").open(newline="", encoding="utf-8") as file:
+        heading, *lines = csv.reader(file)
+    assert heading == ["pose", *names] and lines[2] == ["2", "7", "inf"]
+    assert np.array_equal(np.array(lines)[:, 1:].T.astype(dtype), rows, equal_nan=True)
