@@ -22,6 +22,9 @@ from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import Status, classify
 from jaxkin.solve.system.state import State, assembled
 
+MAX_STEPS_TO_GRID = 1000
+"""Steps of the grid from the assembled pose to the first node, at most: of a fine grid far away there would be many."""
+
 
 class Flooded(NamedTuple):
     """The poses of all nodes."""
@@ -86,15 +89,13 @@ class _Front:
         """To which nodes the branch of the assembled pose leads."""
 
     def begin(self, start: int) -> bool:
-        """Go from the assembled pose to the first node, in steps as long as those of the grid."""
-        spacing = [np.ptp(row) / max(max(self.shape) - 1, 1) for row in self.inputs]
-        steps = max(
-            np.ceil(np.abs(row[start]) / max(step, 1e-3)) for row, step in zip(self.inputs, spacing, strict=True)
-        )
+        """Go from the assembled pose to the first node, in steps of the grid, or, far away, longer ones."""
+        spacing = np.ptp(self.inputs, axis=1) / max(max(self.shape) - 1, 1)
+        far = np.abs(self.inputs[:, start])
+        steps = max((a / step for a, step in zip(far, spacing, strict=True) if step > 0), default=0.0)
+        count = int(np.ceil(np.clip(steps, 1, MAX_STEPS_TO_GRID)))
         rest = [[part[..., [start]] for part in state] for state in self.states]
-        found = self.steps.walk(
-            rest, 0.0 * self.inputs[:, [start]], self.inputs[:, [start]], SHORT_STEPS * max(int(steps), 1)
-        )
+        found = self.steps.walk(rest, 0.0 * self.inputs[:, [start]], self.inputs[:, [start]], SHORT_STEPS * count)
         self._keep(np.array([start]), found, np.array([0]))
         return bool(found.taken[0])
 

@@ -85,6 +85,19 @@ def test_a_serial_arm_reaches_all():
     assert found.condition[:, [0, -1]].max() < 1e-12 < 0.1 < found.condition[:, 2:-2].min()
 
 
+@pytest.mark.long
+@pytest.mark.parametrize("size", [1.0, 1e-6])
+def test_a_map_far_from_the_assembled_pose_does_not_depend_on_the_unit(size):
+    """Two links between slides that go apart until the links are nearly stretched: in metres as in micrometres."""
+    places = {"A": (0.0, 0.0, 0.0), "C": (1.5 * size, 2.0 * size, 0.0), "B": (3.0 * size, 0.0, 0.0)}
+    pairs = {"A": ("left", "one"), "C": ("one", "other"), "B": ("other", "right")}
+    joints = [jk.revolute(name, *pairs[name], point=place, axis=Z) for name, place in places.items()]
+    joints += [jk.prismatic(part[0].upper(), "ground", part, axis=(0, 1, 0)) for part in ("left", "right")]
+    mechanism = jk.Mechanism.build(fixed=["ground"], joints=joints)
+    up = size * np.linspace(1.97, 1.99, 5)
+    assert jk.workspace(mechanism, {"L": up, "R": -up[::-1]}, "one", places["C"]).reached.all()
+
+
 def test_poses_beyond_the_limits_of_joints_are_told_apart(tmp_path):
     """An arm whose elbow bends from -0.5 to 1: beyond, points are known, but not reached."""
     joints = [
