@@ -22,7 +22,8 @@ PerPose = Float[np.ndarray, " poses"]
 class CurveContact:
     """The contact of one joint along a curve, or over a surface along one of its coordinates, at each pose.
 
-    NaN where the pose is not closed; lengths in the unit of the mechanism.
+    NaN where the pose is not closed; lengths in the unit of the mechanism. Of two curves of which that of part 1 is
+    open it is not known on which side the other one is: curvature, clearance and depth are NaN.
     """
 
     joint: str
@@ -70,7 +71,19 @@ class CurveContacts:
 
     def __str__(self) -> str:
         lines = [line for each in self.contacts for line in self._of(each)]
-        return "\n".join(lines or [f"{len(self.contacts)} contacts on curves: all are possible at all closed poses"])
+        none = not any(np.isfinite(each.parameter).any() for each in self.contacts)
+        held = "no pose is closed" if none else "all are possible at all closed poses"
+        half_known = [each.joint for each in self.contacts if np.isnan(each.depth[np.isfinite(each.parameter)]).any()]
+        return "\n".join(
+            [
+                *(lines or [f"{len(self.contacts)} contacts on curves: {held}"]),
+                *(
+                    f"curve contact: joint {joint!r}: whether its curves pass through each other is not known, since "
+                    "that of part 1 is open"
+                    for joint in half_known
+                ),
+            ]
+        )
 
     def _of(self, each: CurveContact) -> list[str]:
         """Tell what is wrong with one contact: how bad, at which pose, and where on its curve."""
@@ -146,7 +159,7 @@ def made_contact(joint: str, what: str, of: str, place: CurvePlace, fit: CurveFi
         np.mod(s, whole) if closed else s,
         curvature,
         np.where(np.abs(clearance) <= IN_THE_WAY, 0.0, clearance),
-        np.where(depth > IN_THE_WAY * size, depth, 0.0),
+        np.where(depth <= IN_THE_WAY * size, 0.0, depth),
         np.where(beyond > IN_THE_WAY * size, beyond, 0.0),
     )
     return CurveContact(joint, what, of, *(np.where(finite, values, np.nan) for values in kept))

@@ -31,8 +31,8 @@ def curve_contacts(motion: Motion) -> CurveContacts:
 
     A roller must not meet its profile anywhere but at the contact, nor be larger than a hollow of the profile (undercut
     of the pitch curve), nor a ball its surface (looked for at samples of the surface); a flat face must have all of the
-    profile on one side; of two curves that touch neither may pass through the other (looked for where the one of part 1
-    is closed). A point passes everywhere. No follower may leave the ends of an open curve or surface. Only the
+    profile on one side; of two curves that touch neither may pass through the other (not known of an open one of part
+    1, and said). A point passes everywhere. No follower may leave the ends of an open curve or surface. Only the
     profiles of each joint are looked at; `jk.clashes` looks at the solids. Raises ValueError for a mechanism
     without joints along curves or over surfaces, and inside `jit`, `vmap` and `grad`.
     """
@@ -98,13 +98,14 @@ def _of_two(joint: Joint, one: Spline, other: Spline, q: Float[np.ndarray, "pose
     # the second curve runs along the first one at the contact, or against it
     along = float(np.sign(frames[0, :3, 0] @ frames[1, :3, 0]))
     bends = a.turning / np.hypot(a.dx, a.dy), along * b.turning / np.hypot(b.dx, b.dy)
-    depth, side = np.zeros(len(q)), 0.0
+    depth, side = np.full(len(q), np.nan), np.nan
     if one.closed:
         from scipy.spatial import KDTree
 
         tree, sag = KDTree(curve), _sag(one) + _sag(other)
         home = _placed_second(second, one.at(0.0), other.at(0.0), along)
         inside = bool(np.mean(_inside(curve, home)) > 0.5)
+        depth[finite] = 0.0
         for pose in np.flatnonzero(finite):
             here, there = (CurvePoint(*(values[pose] for values in each)) for each in (a, b))
             points = _placed_second(second, here, there, along)
@@ -113,9 +114,8 @@ def _of_two(joint: Joint, one: Spline, other: Spline, q: Float[np.ndarray, "pose
                 depth[pose] = max(0.0, float(tree.query(wrong)[0].max()) - 2 * sag)
         area = float(np.sum(curve[:, 0] * np.roll(curve[:, 1], -1) - curve[:, 1] * np.roll(curve[:, 0], -1)))
         side = np.sign(area) * (1.0 if inside else -1.0)  # +1 where the second part is to the left of the first curve
-    clearance = side * (bends[1] - bends[0]) * size if side else np.ones(len(q))
-    shared = CurveFit(-(side or 1.0) * bends[0], clearance, depth, size)
-    own = CurveFit((side or 1.0) * bends[1], np.ones(len(q)), 0 * depth, size)
+    shared = CurveFit(-side * bends[0], side * (bends[1] - bends[0]) * size, depth, size)
+    own = CurveFit(side * bends[1], np.ones(len(q)), np.zeros(len(q)), size)
     return [
         _contact(joint.name, "a curve", one, q[:, 0], shared),
         _contact(joint.name, "a curve", other, q[:, 1], own),

@@ -143,6 +143,24 @@ def test_a_round_curve_larger_than_a_hollow_is_told_as_a_roller_is():
 
 
 @pytest.mark.long
+def test_what_is_not_known_of_open_curves_is_told():
+    """Of an open curve no side is the inside: whether the other curve passes through it is not looked for."""
+    along = np.linspace(-20.0, 20.0, 41)
+    arc = np.stack([along, -(along**2) / 200], axis=1)
+    joints = [
+        jk.prismatic("slide", "ground", "ramp", axis=(1, 0, 0)),
+        jk.curve_on_curve("contact", "ramp", "follower", profile=arc, profile2=-arc, closed=False, closed2=False),
+        jk.prismatic("guide", "ground", "follower", axis=(0, 1, 0)),
+    ]
+    mechanism = jk.Mechanism.build(fixed=["ground"], joints=joints)
+    found = jk.curve_contacts(mechanism.sweep({"slide": np.linspace(0.0, 5.0, 6)}))
+    assert found.holds and np.isnan(found.contacts[0].depth).all()
+    first, second = str(found).splitlines()
+    assert first.endswith("all are possible at all closed poses")
+    assert "'contact': whether its curves pass through each other is not known" in second
+
+
+@pytest.mark.long
 def test_drawn_and_saved(tmp_path):
     found = jk.curve_contacts(on_cam("roller", radius=10.0).sweep({"shaft": TURN}))
     assert found.plot(tmp_path / "contacts.png").stat().st_size > 1000
