@@ -51,17 +51,19 @@ class Transmission:
     and output link, the acute one. NaN where no force goes through the joint."""
 
     def __str__(self) -> str:
-        angle = np.degrees(np.asarray(self.angle))
+        ratio, angle = np.asarray(self.ratio), np.degrees(np.asarray(self.angle))
         lines = [f"Transmission from {self.input} to {self.output}, through {self.joint}"]
-        if unknown := int(np.isnan(angle).sum()):
-            lines.append(f"  not known at {unknown} of {len(angle)} poses")
+        if unknown := int(np.isnan(ratio).sum()):
+            lines.append(f"  not known at {unknown} of {len(ratio)} poses")
+        if np.isfinite(ratio).any():
+            lines.append(f"  ratio of rates from {np.nanmin(ratio):.4g} to {np.nanmax(ratio):.4g}")
         if np.isfinite(angle).any():
-            ratio = np.asarray(self.ratio)
-            lines += [
-                f"  ratio of rates from {np.nanmin(ratio):.4g} to {np.nanmax(ratio):.4g}",
+            lines.append(
                 f"  transmission angle from {np.nanmin(angle):.4g} deg at pose {np.nanargmin(angle)} to "
-                f"{np.nanmax(angle):.4g} deg at pose {np.nanargmax(angle)}",
-            ]
+                f"{np.nanmax(angle):.4g} deg at pose {np.nanargmax(angle)}"
+            )
+        if without := int((np.isnan(angle) & np.isfinite(ratio)).sum()):
+            lines.append(f"  no force goes through {self.joint} in {without} poses: no transmission angle there")
         return "\n".join(lines)
 
     def plot(self, path: str | Path) -> Path:

@@ -133,4 +133,7 @@ def test_links_that_lie_side_by_side():
 
 def test_poses_of_which_nothing_is_known_are_told():
     motion = fourbar().sweep({"A": np.array([0.0, np.nan, 0.5])})
-    assert "\n  not known at 1 of 3 poses\n" in str(jk.transmission(motion, "D"))
+    found = jk.transmission(motion, "D")
+    assert "\n  not known at 1 of 3 poses\n" in str(found)
+    without = str(replace(found, angle=np.full(3, np.nan)))
+    assert "ratio of rates from" in without and "no force goes through C in 2 poses" in without
