@@ -28,21 +28,17 @@ def coupled_turns(linkage: Linkage, driven: Iterable[str]) -> tuple[str, ...]:
         for coupling in linkage.couplings:
             if len(left := set(coupling.coordinates) - known) == 1:
                 known |= left
-    angles = {
-        name
-        for group in linkage.structure.uncoupled_groups
-        for number in group.joints
-        for name in _angles(linkage.joints[number])
-    }
+    inside = [linkage.joints[number] for group in linkage.structure.uncoupled_groups for number in group.joints]
+    angles = {joint.full_names[k] for joint in inside for k in turning(joint)}
     tied = [coupling for coupling in linkage.couplings if not _by_whole_turns(coupling, angles)]
     found = [name for coupling in tied for name in coupling.coordinates if name in angles and name not in known]
     return tuple(dict.fromkeys(found))
 
 
-def _angles(joint: Joint) -> list[str]:
-    """List the coordinates of a joint that turn about an axis and do nothing else, by their full names."""
+def turning(joint: Joint) -> list[int]:
+    """List the coordinates of a joint that turn about an axis and do nothing else: a full turn of them is no motion."""
     return [
-        joint.full_names[own[element.coordinate]]
+        own[element.coordinate]
         for movement, own in zip(joint.movements, coordinate_ranges(joint.movements), strict=True)
         for element in MOVEMENTS[movement].elements
         if element.kind == "rotate" and element.law is None

@@ -16,8 +16,9 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float, Int
 
-from jaxkin.geometry.chains import coordinate_ranges
+from jaxkin.effects.coupled_turns import turning
 from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.trig import TURN
 from jaxkin.linkage.host_closure import ClosedLoops, LoopCoordinates
 from jaxkin.linkage.start_ranges import start_ranges
 from jaxkin.mechanism.drive_plan import DrivenLoopGroup
@@ -290,9 +291,6 @@ def wrap_angles(mechanism: Mechanism, rows: Sequence[np.ndarray], driven: Contai
     """Bring the angles of modes from `first` on into (-pi, pi], where a full turn is no displacement."""
     tied = {name for coupling in mechanism.linkage.couplings for name in coupling.coordinates}
     for joint, row in zip(mechanism.all_joints, rows, strict=True):
-        for movement, own in zip(joint.movements, coordinate_ranges(joint.movements), strict=True):
-            for element in MOVEMENTS[movement].elements:
-                k = own[element.coordinate]
-                name = joint.full_names[k]
-                if element.kind == "rotate" and element.law is None and name not in driven and name not in tied:
-                    row[first:, k] -= 2 * np.pi * np.ceil(row[first:, k] / (2 * np.pi) - 0.5)
+        for k in turning(joint):
+            if (name := joint.full_names[k]) not in driven and name not in tied:
+                row[first:, k] -= TURN * np.ceil(row[first:, k] / TURN - 0.5)
