@@ -13,6 +13,7 @@ from jaxtyping import Array, Float
 from jaxkin._arguments import by_name, positive_number
 from jaxkin._names import nearest
 from jaxkin.geometry.movements import is_length
+from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
@@ -33,10 +34,8 @@ class MeasuredQuantity:
     name: str
     lengths: tuple[bool, ...]
     """For each number of its residual whether it is a length; it is an angle otherwise."""
-    column: int = -1
-    """Of a coordinate: the joint."""
-    index: int = -1
-    """Of a coordinate: which of its joint."""
+    place: JointCoordinate | None = None
+    """The joint and its coordinate, by number; None for a target."""
 
     def residual(self, motion: Motion, measured: Array, markers: Mapping[Target, Any]) -> Float[Array, "poses _"]:
         """Compute how far the motion is from the measured values: computed less measured, radians and lengths.
@@ -44,8 +43,9 @@ class MeasuredQuantity:
         Angles differ by less than half a turn. Of rotations it is the rotation vector; the translation of a pose is
         that of the middle of the joints of its part.
         """
-        if not isinstance(self.key, Target):
-            off = motion.displacements[self.column][:, self.index] - measured
+        if self.place is not None:
+            joint, k = self.place
+            off = motion.displacements[joint][:, k] - measured
             return (off if self.lengths[0] else off - 2 * jnp.pi * jnp.round(off / (2 * jnp.pi)))[:, None]
         if self.key.kind == "point":
             return motion.points(self.key.part, markers.get(self.key, self.key.at)) - measured
@@ -128,8 +128,8 @@ def _kind(mechanism: Mechanism, key: Any) -> MeasuredQuantity:
     Raises ValueError for names that are not there, and for parts that are fixed.
     """
     if not isinstance(key, Target):
-        column, index = coordinate(mechanism.linkage, key)
-        return MeasuredQuantity(key, key, (is_length(mechanism.all_joints[column].coordinates[index]),), column, index)
+        joint, k = coordinate(mechanism.linkage, key)
+        return MeasuredQuantity(key, key, (is_length(mechanism.all_joints[joint].coordinates[k]),), (joint, k))
     if key.part not in mechanism.parts:
         raise ValueError(f"{key.joint}: there is no part {key.part!r}{nearest(key.part, mechanism.parts)}")
     if key.part in mechanism.fixed:

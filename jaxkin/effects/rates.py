@@ -30,6 +30,7 @@ from jaxkin.mechanism.collect import nan_where_not_finite
 from jaxkin.mechanism.known_motion import Inputs, JointRates, KnownDrive, KnownMotion, derivatives, follow, known_motion
 from jaxkin.mechanism.motion import Motion, as_point
 from jaxkin.mechanism.singularity import singular_report
+from jaxkin.solve.closure.rod_spin import vee
 from jaxkin.solve.execution.compiler import whole_program
 from jaxkin.solve.status import Status
 from jaxkin.topology.structure import Structure
@@ -138,10 +139,7 @@ class Rates:
         number = self.motion.mechanism.parts.index(part)
 
         def skew_part(matrices: Float[Array, "poses 4 4"]) -> Float[Array, "poses 3"]:
-            spin = jnp.einsum("pij,pkj->pik", matrices[:, :3, :3], rotation)
-            return 0.5 * jnp.stack(
-                [spin[:, 2, 1] - spin[:, 1, 2], spin[:, 0, 2] - spin[:, 2, 0], spin[:, 1, 0] - spin[:, 0, 1]], axis=-1
-            )
+            return vee(jnp.einsum("pij,pkj->ikp", matrices[:, :3, :3], rotation)).T
 
         # the second derivative of R times R^T is [alpha] + [omega]^2, of which the skew part is [alpha]
         *lower, found = (skew_part(matrices[number]) for matrices in self.matrices)
