@@ -51,14 +51,13 @@ def curve_contacts(motion: Motion) -> CurveContacts:
 def _of_joint(joint: Joint, q: Float[np.ndarray, "poses freedoms"]) -> list[CurveContact]:
     """Check what follows the curve or surface of one joint; coordinates of the plane are those of the curve's frame.
 
-    `q` are the displacements of the joint at each pose, NaN where it is not closed. Empty for a joint of which no
-    contact is looked at.
+    `q` are the displacements of the joint at each pose, NaN where it is not closed. A surface has two contacts,
+    one along each of its coordinates, and so have two curves.
     """
     spline, second = joint.splines[0], joint.splines[-1]
     if isinstance(spline, BicubicSpline):
         return contacts_on_surface(joint.name, spline, q)
-    if not isinstance(spline, Spline):
-        return []
+    assert isinstance(spline, Spline)  # what a joint with curves follows first
     if isinstance(second, Spline):
         return _of_two(joint, spline, second, q)
     finite = np.isfinite(q[:, 0])

@@ -201,12 +201,12 @@ def why_locked(joints: Mapping[int, Joint], curve: MotionCurve, here: CurvePose)
     kinds = [_kind(joints[joint], k) for joint, k in (curve.loops.columns[column] for column in moving)]
     if len(names) == len(moving) == 3 and kinds.count("rotate") == 3:
         return names, f"the axes of {_and(names)} lie in one plane"
-    slides = [name for name, kind in zip(names, kinds, strict=False) if kind == "translate"]
-    if len(names) == len(moving) == 3 and kinds.count("rotate") == 2 and len(slides) == 1:
+    if len(names) == len(moving) == 3 and sorted(kinds) == ["rotate", "rotate", "translate"]:
+        slide = names[kinds.index("translate")]
         one, other = (screws[:3, k] for k, kind in enumerate(kinds) if kind == "rotate")
-        turning = [name for name in names if name not in slides]
         if np.linalg.norm(np.cross(one, other)) < _AT_REST:
-            return names, f"the plane of the axes of {_and(turning)} is square to the slide {slides[0]}"
+            turning = [name for name in names if name != slide]
+            return names, f"the plane of the axes of {_and(turning)} is square to the slide {slide}"
     return names, f"{_and(names)} can move while it is at rest"
 
 

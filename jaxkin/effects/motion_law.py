@@ -158,8 +158,8 @@ class MotionLaw:
         return "\n".join([*lines, "  most: velocity {}, acceleration {}, jerk {}".format(*told)])
 
     def largest(self) -> tuple[float, float, float]:
-        """Find the largest velocity, acceleration and jerk without their signs: infinite where the derivative before
-        jumps, also from the rest before the law and to that after it."""
+        """Find the largest velocity, acceleration and jerk without their signs: infinite where what each is the
+        derivative of jumps, also from the rest before the law and to that after it."""
         share = np.linspace(0.0, 1.0, SAMPLES)
         root = float(jnp.finfo(self(0.0).dtype).eps) ** 0.5
         found, jumps = [], False
