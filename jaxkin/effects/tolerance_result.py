@@ -12,6 +12,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from jaxkin._arguments import positive_number
 from jaxkin._files import quoted, save_table
 from jaxkin._names import closest
 from jaxkin._traced import traced
@@ -142,8 +143,7 @@ class Tolerances:
         """
         if rule not in RULES:
             raise ValueError(f"rule must be one of {', '.join(RULES)}, got {rule!r}{closest(rule, RULES)}")
-        if not (np.isfinite(error) and error > 0):
-            raise ValueError(f"the wanted error must be a positive number, got {error!r}")
+        error = float(positive_number(error, "the wanted error", "a positive number"))
         sizes = np.abs(np.asarray(self.sensitivities))
         weights = sizes * self.limits
         counted = weights > SIZE_OF_NONE * weights.max()
@@ -154,7 +154,7 @@ class Tolerances:
         equal = np.where(counted, share / np.where(counted, sizes, 1.0), np.inf)
         scale = float(error / whole_now)
         return AllowedTolerances(
-            float(error),
+            error,
             rule,
             scale,
             dict(zip(self.keys, (scale * self.limits).tolist(), strict=True)),

@@ -120,8 +120,9 @@ def test_the_tolerances_of_a_wanted_error(found):
     assert "equal shares" in str(squares)
     with pytest.raises(ValueError, match="did you mean 'worst case'"):
         found.allowed(0.01, "worst")
-    with pytest.raises(ValueError, match="must be a positive number, got -1"):
-        found.allowed(-1)
+    for wrong in (-1, "0.01"):
+        with pytest.raises(ValueError, match=f"must be a positive number, got {wrong!r}"):
+            found.allowed(wrong)
 
 
 @pytest.mark.long
