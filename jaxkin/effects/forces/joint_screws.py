@@ -181,9 +181,9 @@ def _carried(
         x, y, z = (part_1[:, k, None] * vectors[k] for k in range(3))
         return x + y + z
 
-    axes, poses = turned(own.axes), own.point.shape[1]
+    axes = turned(own.axes)
     places = turned(jnp.concatenate([own.origins, own.point[:, None]], axis=1)) + part_1[:, 3, None]
-    arms = scale.arm(places.reshape(3, -1)).reshape(3, -1, poses)
+    arms = scale.arm(places)
     moments = own.turns * cross(arms[:, :-1], axes) + own.slides * axes
     return arms[:, -1], jnp.concatenate([own.turns * axes, moments])
 

@@ -39,9 +39,9 @@ class Scale(NamedTuple):
         middle, size = centroid_and_length(origins)
         return Scale(size, middle)
 
-    def arm(self, points: Float[Array, "3 poses"]) -> Float[Array, "3 poses"]:
+    def arm(self, points: Float[Array, "3 *poses"]) -> Float[Array, "3 *poses"]:
         """Compute the vectors from the middle to points of the world, over the size."""
-        return (points - self.middle[:, None]) / self.size
+        return (points - self.middle.reshape(3, *[1] * (points.ndim - 1))) / self.size
 
     def of_coordinates(self, joint: Joint) -> list[Any]:
         """List the unit of each coordinate of a joint: the size for lengths, 1 for angles."""

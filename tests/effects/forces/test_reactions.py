@@ -162,6 +162,14 @@ def test_loads_that_are_no_numbers_are_told(motion, masses):
     assert "unknown" in str(found)
 
 
+def test_a_motion_without_poses_has_no_forces():
+    arm = jk.revolute("A", "base", "arm", point=(0, 0, 0), axis=Z)
+    motion = jk.Mechanism.build(fixed=["base"], joints=[arm]).sweep({"A": np.zeros(0)})
+    load = jk.force("arm", (1, 0, 0), (0.0, 3.0, 0.0))
+    assert jk.reactions(motion, applied=load).forces["A"].shape == (0, 3)
+    assert jk.drive_forces(motion, applied=load, rates={"A": 1.0}).forces["A.phi"].shape == (0,)
+
+
 def test_a_load_that_is_no_number_leaves_the_other_joints_known():
     joints = [jk.revolute(name, "base", f"arm {name}", point=(0, 0, 0), axis=Z) for name in ("A", "B")]
     motion = jk.Mechanism.build(fixed=["base"], joints=joints).sweep({"A": [0.0, 0.1], "B": [0.0, 0.1]})
