@@ -10,8 +10,9 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jax import lax
 
-from jaxkin._arguments import by_name
+from jaxkin._arguments import by_name, exact_numbers
 from jaxkin._names import nearest
 from jaxkin._traced import traced
 from jaxkin.dimensions.feature_geometry import between, moved, value
@@ -26,6 +27,9 @@ rounding in float64."""
 
 _ORDER = ("angle", "distance", "radius", "offset")
 """Order in which the quantities of a body are changed."""
+
+_SIDES = ("frames_1", "frames_2")
+"""The frames of a joint on its two parts."""
 
 Body = tuple[Feature, ...]
 """The features of one part, or of a body between two frames of a contact joint."""
@@ -135,19 +139,21 @@ def with_lengths(linkage: Linkage, changes: Mapping[Any, Any]) -> Linkage:
         ideal = with_lengths(linkage.with_joints(linkage.ideal), changes)
         changed = changed.with_joints(changed.joints, ideal.joints)
     for row, misfit in misfits.items():
-        if not traced(misfit):
-            if not float(misfit) <= MAX_MISFIT:
+        known = lax.stop_gradient(misfit) if traced(misfit) else misfit  # under `grad` alone the number is there
+        if not traced(known):
+            if not float(known) <= MAX_MISFIT:
                 asked = ", ".join(f"{key!r}: {_shown(changes[key])}" for key in changes)
                 raise ValueError(
                     f"part {row!r} cannot have {asked} with all its other lengths as they are (they miss by "
-                    f"{float(misfit):.1g} of its size): change others of it in the same call so that they fit "
+                    f"{float(known):.1g} of its size): change others of it in the same call so that they fit "
                     "together, or place its joints by with_points"
                 )
         else:
-            # traced numbers cannot raise: every pose gets the status NONFINITE instead of a wrong length
-            spoilt = jnp.where(misfit <= MAX_MISFIT, 0.0, jnp.nan)
+            # Traced numbers cannot raise: every pose gets the status NONFINITE instead of a wrong length. The choice
+            # keeps NaN out of the derivative, which a sum would hand on.
+            fits = misfit <= MAX_MISFIT
             joints = [
-                replace(joint, frames_1=joint.frames_1 + spoilt)
+                replace(joint, **{side: jnp.where(fits, getattr(joint, side), jnp.nan) for side in _SIDES})
                 if row in [linkage.structure.row_of[part] for part in joint.parts]
                 else joint
                 for joint in changed.joints
@@ -245,7 +251,7 @@ def _row(linkage: Linkage, body: Body) -> str:
 def _with_frames(joint: Joint, frames: Mapping[tuple, Any], pitch: Any) -> Joint:
     """Replace some frames of a joint, given by (side, index), and its pitch if it is not None."""
     sides = {}
-    for side in ("frames_1", "frames_2"):
+    for side in _SIDES:
         given = getattr(joint, side)
         new = [frames.get((side, i), given[i]) for i in range(len(joint.movements))]
         sides[side] = (jnp if traced(new, given) else np).stack(new)
@@ -255,13 +261,11 @@ def _with_frames(joint: Joint, frames: Mapping[tuple, Any], pitch: Any) -> Joint
 def _checked(key: LengthName, length: Length, wanted):
     """Check that a new length is a finite number in its range (ValueError); traced numbers are not checked."""
     if traced(wanted):
+        known = lax.stop_gradient(wanted)  # under `grad` alone the number is there
+        if not traced(known) and not np.isfinite(known).all():
+            raise ValueError(f"length {key!r} must be a finite number, got {known}")
         return wanted
-    try:
-        if isinstance(wanted, str):
-            raise TypeError
-        number = np.asarray(wanted, float)
-    except (TypeError, ValueError):
-        raise ValueError(f"length {key!r} must be a number, got {wanted!r}") from None
+    number = exact_numbers(wanted, f"length {key!r}", "a number")
     if number.shape != ():
         raise ValueError(
             f"length {key!r} must be one number, got an array of shape {number.shape}; for many designs at once map "
@@ -278,6 +282,7 @@ def _checked(key: LengthName, length: Length, wanted):
     return number
 
 
-def _shown(wanted: object) -> str:
+def _shown(wanted: Any) -> str:
     """Write a new length for a message."""
-    return f"{float(wanted):.6g}" if isinstance(wanted, int | float | np.ndarray) else repr(wanted)
+    known = lax.stop_gradient(wanted) if traced(wanted) else wanted
+    return repr(known) if traced(known) else f"{float(known):.6g}"
