@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from decimal import Decimal
+from numbers import Real
 from typing import Any
 
 import jax.numpy as jnp
@@ -73,20 +75,36 @@ def yes_or_no(given: Any, what: str) -> bool:
 
 
 def numbers(given: Any, what: str, expected: str = "numbers") -> Any:
-    """Return an array of what was given, of JAX where it is traced, else of numpy; ValueError for what is no number.
+    """Return an array of what was given, of JAX where it is traced, else of numpy, in the precision of JAX.
 
-    None and text are none, although numpy makes numbers of them.
+    Raises ValueError for what is no number, as `exact_numbers`.
     """
-    dtype = dtypes.canonicalize_dtype(float)
+    return exact_numbers(given, what, expected).astype(dtypes.canonicalize_dtype(float), copy=False)
+
+
+def exact_numbers(given: Any, what: str, expected: str = "numbers") -> Any:
+    """Return an array of what was given, of JAX where it is traced, else of numpy in float64; ValueError for others.
+
+    None, text, times and complex numbers are none, although numpy makes numbers of them. Decimals and fractions are.
+    What a masked array hides is NaN.
+    """
     if traced(given):
-        return jnp.asarray(given, dtype)
+        known = jnp.asarray(given)
+        if jnp.iscomplexobj(known):
+            raise ValueError(f"{what} must be {expected}, got complex numbers that JAX traces")
+        return known.astype(float)
     try:
         found = np.asarray(given)
-        if found.dtype.kind not in "biuf":
+        if found.dtype.kind == "O":
+            real = all(isinstance(each, Real | Decimal) for each in found.flat)
+        else:
+            real = found.dtype.kind in "biuf" or jnp.issubdtype(found.dtype, jnp.floating)
+        if not real:
             raise TypeError
-        return found.astype(dtype, copy=False)
+        found = found.astype(np.float64, copy=False)
     except (TypeError, ValueError):
         raise ValueError(f"{what} must be {expected}, got {given!r}") from None
+    return np.where(np.ma.getmaskarray(given), np.nan, found) if np.ma.isMaskedArray(given) else found
 
 
 def one_number(given: Any, what: str, expected: str = "one finite number") -> Any:

@@ -11,7 +11,7 @@ import numpy as np
 from jax import dtypes
 from jaxtyping import Array, Float
 
-from jaxkin._arguments import by_name
+from jaxkin._arguments import by_name, exact_numbers
 from jaxkin.design.measures import STATIC, lengths_now
 from jaxkin.dimensions.frames import find_profile, locate
 from jaxkin.dimensions.lengths import find_length
@@ -200,8 +200,8 @@ def _check_ends(mechanism: Mechanism, entries: Sequence[_Entry]) -> None:
 def _as_array(given: Any) -> Any:
     """Convert what are numbers to an array; what is none is refused by the sweep of the design given."""
     try:
-        return np.asarray(given, float)
-    except (TypeError, ValueError):
+        return exact_numbers(given, "a drive")
+    except ValueError:
         return given
 
 
@@ -237,7 +237,7 @@ def _entry(group: str, key: Any, free: Free, what: str = "") -> _Bounded:
     """
     what = what or f"{group[:-1]} {key!r}"
     try:
-        start, lower, upper = (np.asarray(value, float) for value in (free.start, free.lower, free.upper))
+        start, lower, upper = (exact_numbers(value, what) for value in (free.start, free.lower, free.upper))
         start, lower, upper = (np.array(array) for array in np.broadcast_arrays(start, lower, upper))
     except (TypeError, ValueError):
         raise ValueError(f"{what}: start and bounds must be numbers of one shape, got {free!r}") from None

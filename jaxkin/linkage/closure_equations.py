@@ -17,7 +17,7 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
-from jaxkin._arguments import by_name
+from jaxkin._arguments import by_name, numbers
 from jaxkin._names import nearest
 from jaxkin.geometry.characteristic_length import centroid_and_length
 from jaxkin.geometry.rigid import as_matrices, inverse, product
@@ -65,8 +65,8 @@ def closure_equations(linkage: Linkage, coordinates: Mapping[str, object]) -> Cl
 def _of_joint(joint: Joint, given: Any) -> Float[Array, " freedoms"]:
     """Check the displacements that are given for a joint, one number a coordinate; ValueError for others."""
     try:
-        values = jnp.atleast_1d(jnp.asarray(given, float))
-    except (TypeError, ValueError):
+        values = jnp.atleast_1d(numbers(given, "a displacement"))
+    except ValueError:
         values = None
     if values is None or values.shape != (joint.freedoms,):
         raise ValueError(

@@ -10,7 +10,7 @@ import numpy as np
 from jax import dtypes, lax
 from jaxtyping import Array, Bool, Float
 
-from jaxkin._arguments import by_name
+from jaxkin._arguments import by_name, numbers
 from jaxkin._names import nearest
 from jaxkin._traced import traced
 from jaxkin.joints.joint import JointCoordinate
@@ -84,8 +84,8 @@ def with_finite_inputs(
     """
     on_host = all(isinstance(values, np.ndarray) for values in given)
     # under `jvp` and `grad` alone the numbers are known: to look at them here saves some twenty small programs
-    numbers = given if on_host else lax.stop_gradient(given)
-    if (on_host or not traced(numbers)) and all(np.isfinite(np.asarray(values)).all() for values in numbers):
+    known = given if on_host else lax.stop_gradient(given)
+    if (on_host or not traced(known)) and all(np.isfinite(np.asarray(values)).all() for values in known):
         return given, None
     xp = jnp if not on_host and traced(given) else np
     finite = xp.all(xp.isfinite(xp.stack(given)), axis=0)
@@ -134,18 +134,8 @@ def _pair(linkage: Linkage, name: str) -> list[str]:
 
 def _values(key: str, values: Any) -> InputValues:
     """Check the displacements of one coordinate and convert them to floats; `key` is its name, for messages."""
-    dtype = dtypes.canonicalize_dtype(float)
-    if isinstance(values, np.ndarray) and values.dtype == dtype:
-        pass
-    elif traced(values):
-        values = jnp.asarray(values, dtype)
-    else:
-        try:
-            if np.iscomplexobj(values):
-                raise TypeError
-            values = np.asarray(values, dtype)
-        except (TypeError, ValueError):
-            raise ValueError(f"drive {key!r}: the displacements must be real numbers, got {values!r}") from None
+    if type(values) is not np.ndarray or values.dtype != dtypes.canonicalize_dtype(float):
+        values = numbers(values, f"drive {key!r}: the displacements", "real numbers")
     if values.ndim != 1:
         raise ValueError(
             f"drive {key!r}: the displacements must be an array of one axis, one value a pose, got shape "

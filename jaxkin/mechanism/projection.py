@@ -13,7 +13,7 @@ import numpy as np
 from jax import dtypes
 from jaxtyping import Array, Bool, Float, Int
 
-from jaxkin._arguments import by_name, check_mechanism, several
+from jaxkin._arguments import by_name, check_mechanism, numbers, several
 from jaxkin._names import nearest
 from jaxkin._traced import traced
 from jaxkin.geometry.root import root
@@ -187,10 +187,7 @@ def _given(mechanism: Mechanism, given: Mapping[str, Any]) -> dict[str, Float[Ar
         if name not in mechanism.joints:
             raise ValueError(f"there is no joint {name!r}{nearest(str(name), mechanism.joints)}")
         freedoms = mechanism.joints[name].freedoms
-        try:
-            rows = (jnp if traced(values) else np).asarray(values, dtype)
-        except (TypeError, ValueError):
-            rows = np.zeros((0, 0, 0))  # refused below
+        rows = numbers(values, f"the coordinates of {name!r}", f"real numbers, an array (poses, {freedoms})")
         rows = rows.reshape(-1, 1) if rows.ndim == 1 and freedoms == 1 else rows
         if rows.ndim != 2 or rows.shape[1] != freedoms:
             raise ValueError(

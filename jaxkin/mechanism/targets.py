@@ -15,7 +15,7 @@ import jax.numpy as jnp
 import numpy as np
 from jax import lax
 
-from jaxkin._arguments import text
+from jaxkin._arguments import exact_numbers, text
 from jaxkin._memory import once_for_each
 from jaxkin._names import nearest
 from jaxkin._traced import traced
@@ -191,16 +191,8 @@ def _driven(joint: Joint, target: Target) -> range:
 
 def _coordinates(joint: Joint, target: Target, values: Any, size: float) -> dict[str, Any]:
     """Compute the driven coordinates of the joint of a target, by full names."""
-    shape = target.shape
     xp: Any = jnp if traced(values, joint) else np
-    given: Any
-    try:
-        given = xp.asarray(values, float)
-    except (TypeError, ValueError):
-        given = np.zeros(0)
-    if given.ndim != len(shape) + 1 or given.shape[1:] != shape:
-        said = ", ".join(map(str, shape))
-        raise ValueError(f"{target.joint}: expected an array of shape (poses, {said}), got shape {np.shape(values)}")
+    given: Any = xp.asarray(target_values(target, values))
     if xp is np:
         given = _rigid_or_nan(target, given)
     frame = xp.asarray(joint.frames_1, float)[0]
@@ -217,6 +209,18 @@ def _coordinates(joint: Joint, target: Target, values: Any, size: float) -> dict
     else:
         rows = [*moved.T, *_unwrapped(_angles(turned, xp), xp)]
     return {joint.full_names[k]: rows[k] for k in _driven(joint, target)}
+
+
+def target_values(target: Target, values: Any) -> Any:
+    """Convert the values of a target to an array (poses, *shape of one), of JAX where they are traced.
+
+    Raises ValueError for what is no number, and for arrays of another shape.
+    """
+    shape = f"(poses, {', '.join(map(str, target.shape))})"
+    given = exact_numbers(values, f"{target.joint}: the values", f"real numbers, an array {shape}")
+    if given.ndim != len(target.shape) + 1 or given.shape[1:] != target.shape:
+        raise ValueError(f"{target.joint}: expected an array of shape {shape}, got shape {given.shape}")
+    return given
 
 
 def _rigid_or_nan(target: Target, given: np.ndarray) -> np.ndarray:

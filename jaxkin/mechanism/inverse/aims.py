@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin._arguments import exact_numbers
 from jaxkin._names import nearest
 from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.coordinates import coordinate
-from jaxkin.mechanism.targets import Target, check_rigid, middle_of_joints
+from jaxkin.mechanism.targets import Target, check_rigid, middle_of_joints, target_values
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
@@ -70,23 +71,16 @@ def _aim(mechanism: Mechanism, key: str | Target, values: Any, weight: Weight) -
     Raises ValueError for names that are not there, parts that are fixed, arrays of another shape, NaN and infinity,
     matrices that are no rotations, and weights that are negative or no numbers.
     """
-    try:
-        given = np.asarray(values, float)
-    except (TypeError, ValueError):
-        given = np.zeros(())
     both = _weights(key, weight)
     if not isinstance(key, Target):
+        given = exact_numbers(values, f"target {key!r}: the displacements", "real numbers")
         if given.ndim != 1:
             raise ValueError(f"target {key!r}: expected one displacement a pose, got shape {np.shape(values)}")
         return JointAim(coordinate(mechanism.linkage, key), _finite(key, given), both[0])
     if key.part not in mechanism.parts or key.part in mechanism.fixed:
         moving = [part for part in mechanism.parts if part not in mechanism.fixed]
         raise ValueError(f"{key.joint}: there is no part {key.part!r} that moves{nearest(key.part, moving)}")
-    shape = key.shape
-    if given.ndim != len(shape) + 1 or given.shape[1:] != shape:
-        said = ", ".join(map(str, shape))
-        raise ValueError(f"{key.joint}: expected an array of shape (poses, {said}), got shape {np.shape(values)}")
-    given = _finite(key, given)
+    given = _finite(key, target_values(key, values))
     if key.kind == "point":
         return PartAim(key.part, np.array(key.at), given, None, both)
     turns = given[:, :3, :3]
