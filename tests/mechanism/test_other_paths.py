@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from jaxkin.mechanism.targets import point
 from jaxkin.solve.status import Status
 from reference.mechanisms import flat
 from reference.planar_robots import five_bar, tip
@@ -47,3 +48,16 @@ def test_poses_are_told_by_the_closed_form(order):
     closed = status == Status.CLOSED
     found = motion.points("left rod", flat(tip([0.0], [0.0], ROD)))
     np.testing.assert_allclose(np.asarray(found)[closed, :2], wanted[closed], atol=1e-9)
+
+
+@pytest.mark.long
+def test_inputs_however_far_away_are_unreachable_in_a_few_steps():
+    """As targets in millimetres of a mechanism in metres: a path to them was followed in steps of 0.15 of the size."""
+    mechanism = five_bar(ROD)
+    home = np.array(mechanism.joints["C"].frames_1[0][:3, 3])
+    part = mechanism.joints["C"].parts[0]
+    there = home + np.array([[2.0, 1.0, 0.0], [1e5, 1.0, 0.0], [1e11, 1.0, 0.0], [-1.0, 2.0, 0.0]])
+    motion = mechanism.sweep({point(part, tuple(home)): there})
+    closed, unreachable = Status.CLOSED.value, Status.UNREACHABLE.value
+    np.testing.assert_array_equal(motion.status, [closed, unreachable, unreachable, closed])
+    np.testing.assert_allclose(np.asarray(motion.points(part, home))[[0, 3]], there[[0, 3]], atol=1e-9)

@@ -42,6 +42,8 @@ class ContinuationProblem(ClosureProblem):
     """Inputs as a function of the distance along the path."""
     follow_limits: Bool[Array, ""] | bool = True
     """Whether fronts go on beyond limits, with the damped corrector; if not, they stop there."""
+    stride: Float[Array, " fronts"] | float = 1.0
+    """How many times `step.BEYOND_LIMIT_STEP` the steps beyond limits are long."""
 
 
 class Fronts(NamedTuple):

@@ -181,7 +181,7 @@ def _attempt(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, 
     resting = arrived(fronts, target) | stopped_at_limit(fronts, problem.follow_limits)
     stage = jnp.where(resting, RESTING, fronts.stage)
     closing, following, beyond = stage == CLOSING, stage == FOLLOWING, stage == BEYOND_LIMIT
-    length = jnp.where(beyond, jnp.minimum(BEYOND_LIMIT_STEP, left), 0.0)
+    length = jnp.where(beyond, jnp.minimum(BEYOND_LIMIT_STEP * problem.stride, left), 0.0)
     length = jnp.where(following, jnp.minimum(fronts.step, left), length)
     moved = jnp.where(target < fronts.at, -length, length)
     at = jnp.where((jnp.abs(moved) >= left) & (following | beyond), target, fronts.at + moved)
