@@ -28,6 +28,9 @@ FIRST_LINES = ("OndselSolver", "freeCAD: 3D CAD with Motion Simulation  by  asko
 MAX_BYTES = 256_000_000
 """Bytes of a file: most of a long one are the results of a simulation, which are not read."""
 
+BEHIND_JOINTS = "ForceTorques"
+"""What the solver writes and asks for behind parts, joints, motions and limits: a file without it has lost some."""
+
 MAX_DEEP = 40
 """Tabs at the beginning of a line; markers are at eight."""
 
@@ -137,6 +140,10 @@ class _Reader:
             self._markers(each, name, pose, f"/{self.name}/{name}")
         if len(made.links) == 1:
             raise ValueError(f"{self.file}: there are no Parts in it")
+        if self.root.find(BEHIND_JOINTS) is None:
+            raise ValueError(
+                f"{self.file} is cut off: its Assembly has no {BEHIND_JOINTS} behind its joints; copy or export it again"
+            )
         joints = list(self.root.every("ConstraintSets", "Joints"))
         for each in joints:
             self.sides[f"/{self.name}/{each.said('Name')}"] = each.said("MarkerI"), each.said("MarkerJ")

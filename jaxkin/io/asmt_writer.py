@@ -53,6 +53,9 @@ ACROSS = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]])
 ALONG = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
 """Rotation whose z axis is the second axis of a universal joint, x."""
 
+GROUND = ""
+"""What the assembly itself is called here: no part has this name."""
+
 EXPRESSION = {"RotationalMotion": "RotationZ", "TranslationalMotion": "TranslationZ"}
 """Motions -> the key of their law."""
 
@@ -113,7 +116,8 @@ class _Writer:
         self.inertials = {
             part: Inertial(own.mass, own.centre / metres, own.inertia / metres**2) for part, own in inertials.items()
         }
-        self.parts = [part for part in mechanism.parts if part != WORLD]
+        self.grounds = (GROUND, WORLD) if WORLD in mechanism.fixed else (GROUND,)
+        self.parts = [part for part in mechanism.parts if part not in self.grounds]
         self.motors = {coordinate(mechanism.linkage, motor): motor for motor in mechanism.motors}
         self.joints: list[_Written] = []
         self.motions: list[tuple[int, str]] = []
@@ -124,8 +128,8 @@ class _Writer:
         names = coordinate_names(mechanism.all_joints)
         taken = [each for own in names for each in own] + [joint.name for joint in mechanism.all_joints]
         for part in mechanism.fixed:
-            if part != WORLD:
-                sides = ((WORLD, np.eye(4)), (part, np.eye(4)))
+            if part not in self.grounds:
+                sides = ((GROUND, np.eye(4)), (part, np.eye(4)))
                 name = unique([*dict.fromkeys(taken), f"{part} on the ground"])[-1]
                 self.joints.append(_Written(JOINT_OF[JointKind.FIXED], name, sides))
         for number, joint in enumerate(mechanism.all_joints):
@@ -200,23 +204,27 @@ class _Writer:
         """Write the assembly, in the order that its solver reads."""
         names = unique(each.name for each in self.joints)
         paths = [f"/{self.name}/{name}" for name in names]
-        markers: dict[str, list[tuple[str, Transform]]] = {part: [] for part in (WORLD, *self.parts)}
+        markers: dict[str, list[tuple[str, Transform]]] = {part: [] for part in (*self.grounds, *self.parts)}
+        for ground in self.grounds:
+            markers[ground] = markers[GROUND]
+        # readers call the assembly WORLD: a part that is called so, and moves, gets another name
+        part_names = dict(zip(self.parts, unique([WORLD, *self.parts])[1:], strict=True))
         joints = ""
         for each, name in zip(self.joints, names, strict=True):
             said = _node(4, "Name", name)
             for side, (part, frame) in zip("IJ", each.sides, strict=True):
                 marker = f"Marker{len(markers[part]) + 1}"
                 markers[part].append((marker, frame))
-                said += _node(4, f"Marker{side}", self._path(part, marker))
+                said += _node(4, f"Marker{side}", self._path(part_names.get(part, GROUND), marker))
             joints += f"\t\t\t{each.kind}\n{said}{''.join(_node(4, *pair) for pair in each.more)}"
         parts = "".join(
-            f"\t\tPart\n{_node(3, 'Name', part)}{_place(3, np.eye(4))}{_at_rest(3)}\t\t\tFeatureOrder\n"
+            f"\t\tPart\n{_node(3, 'Name', part_names[part])}{_place(3, np.eye(4))}{_at_rest(3)}\t\t\tFeatureOrder\n"
             f"{self._mass(3, part)}{_markers(3, markers[part])}"
             for part in self.parts
         )
         return (
             f"{FIRST_LINES[0]}\nAssembly\n{_node(1, 'Notes', 'written by jaxkin')}{_node(1, 'Name', self.name)}"
-            f"{_place(1, np.eye(4))}{_at_rest(1)}{_markers(1, markers[WORLD])}\tParts\n{parts}\tKinematicIJs\n"
+            f"{_place(1, np.eye(4))}{_at_rest(1)}{_markers(1, markers[GROUND])}\tParts\n{parts}\tKinematicIJs\n"
             f"\tConstraintSets\n\t\tJoints\n{joints}\t\tMotions\n{self._motions(paths)}{self._limits(paths)}"
             f"\t\tGeneralConstraintSets\n{LAST}"
         )
@@ -236,7 +244,7 @@ class _Writer:
         return "\t" * depth + "PrincipalMassMarker\n" + said
 
     def _path(self, part: str, marker: str) -> str:
-        return f"/{self.name}/{marker}" if part == WORLD else f"/{self.name}/{part}/{marker}"
+        return f"/{self.name}/{marker}" if part == GROUND else f"/{self.name}/{part}/{marker}"
 
     def _motions(self, paths: Sequence[str]) -> str:
         result = ""

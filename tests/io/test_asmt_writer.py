@@ -128,3 +128,17 @@ def test_what_cannot_be_written_is_refused(tmp_path):
     with pytest.raises(ValueError, match="angles of the ball 'hip'"):
         jk.write_asmt(replace(ball, motors=("hip.phi",)), tmp_path / "model.asmt")
     assert not list(tmp_path.iterdir())
+
+
+def test_a_part_that_is_called_as_the_ground_and_moves_still_does(tmp_path):
+    """Readers call the assembly itself "world": the part was taken for it, and all that hung on it stood still."""
+    joints = [
+        jk.revolute("A", "base", "world", point=(0, 0, 0), axis=(0, 0, 1)),
+        jk.revolute("B", "world", "arm", point=(1, 0, 0), axis=(0, 0, 1)),
+    ]
+    mechanism = jk.Mechanism.build(fixed=["base"], joints=joints)
+    back = written(mechanism, tmp_path).mechanism()
+    drive = {"A": [0.0, 0.4], "B": [0.0, -0.3]}
+    ours, theirs = (each.sweep(drive) for each in (mechanism, back))
+    for part, other in (("base", "base"), ("world", "world#2"), ("arm", "arm")):
+        np.testing.assert_allclose(ours.transforms[part], theirs.transforms[other], atol=1e-14)  # sums of 1

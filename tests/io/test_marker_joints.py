@@ -47,7 +47,7 @@ def assembly(folder, world, parts, joints):
     for kind, name, one, other, sizes in joints:
         said = {"Name": name, "MarkerI": f"/A/{one}", "MarkerJ": f"/A/{other}", **sizes}
         text += f"\t\t\t{kind}\n" + "".join(f"\t\t\t\t{key}\n\t\t\t\t\t{value}\n" for key, value in said.items())
-    (folder / "a.asmt").write_text(text)
+    (folder / "a.asmt").write_text(f"{text}\tForceTorques\n")
     return jk.load(folder / "a.asmt")
 
 

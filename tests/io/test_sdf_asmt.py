@@ -247,3 +247,16 @@ def test_unknown_joints_and_markers_are_refused(tmp_path):
     (tmp_path / "bad.asmt").write_text("something else\n")
     with pytest.raises(ValueError, match="in line 1"):
         jk.load(tmp_path / "bad.asmt")
+
+
+def test_asmt_that_ends_too_soon_is_never_a_part_of_its_mechanism(tmp_path):
+    """Its text has no end of its own: cut at any line, it was read with the joints that were left."""
+    asmt(tmp_path, JOINTS, MORE)
+    lines = (tmp_path / "robot.asmt").read_text().splitlines(keepends=True)
+    behind = lines.index("\tForceTorques\n")
+    for end in range(2, behind + 1):
+        (tmp_path / "cut.asmt").write_text("".join(lines[:end]))
+        with pytest.raises(ValueError, match=r"cut\.asmt"):
+            jk.load(tmp_path / "cut.asmt")
+    (tmp_path / "cut.asmt").write_text("".join(lines[: behind + 1]))
+    assert len(jk.load(tmp_path / "cut.asmt").mechanism().joints) == len(JOINTS)
