@@ -23,6 +23,7 @@ from jaxkin.io.step_placements import FilePlacements, check_not_mirrored
 from jaxkin.io.step_rounding import corner_rounding, place_rounding, text_rounding
 from jaxkin.io.step_shapes import StepShapes, solids_alone
 from jaxkin.io.step_solid import Solid, make_solid
+from jaxkin.io.step_strings import string_value
 from jaxkin.io.step_text import step_text
 from jaxkin.io.step_tree import nameless_occurrences, placed_parts, simple_occurrences
 from jaxkin.io.step_unit import length_unit, uncertainty
@@ -146,7 +147,7 @@ def _checked(path: Path) -> str:
 
 def _documents(text: str) -> list[str]:
     """List the names of other files that a file refers to."""
-    return [name.encode("latin-1").decode("utf-8", "replace") for name in dict.fromkeys(_DOCUMENT.findall(text))]
+    return [string_value(name) for name in dict.fromkeys(_DOCUMENT.findall(text))]
 
 
 def _with_solids(text: str, placed: Mapping[str, int], found: int) -> tuple[dict[str, int], list[str]]:

@@ -13,6 +13,7 @@ from functools import cached_property
 
 from jaxkin.io.names import cleaned
 from jaxkin.io.step_placements import STATEMENT
+from jaxkin.io.step_strings import string_value
 
 _NUMBER = re.compile(r"#(\d+)")
 _STRING = re.compile(r"'((?:[^']|'')*)'")
@@ -128,7 +129,7 @@ class StepShapes:
         for formation in self._references(definition)[:1]:
             for product in self._references(formation)[:1]:
                 if self.kinds.get(product) == "PRODUCT":
-                    named = [text.replace("''", "'") for text in _STRING.findall(self.bodies[product])[1::-1]]
+                    named = map(string_value, _STRING.findall(self.bodies[product])[1::-1])
                     return next(filter(None, map(cleaned, named)), "")
         return ""
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 
+from jaxkin.io.step_strings import plain_strings
+
 _PACKED = {b"\x1f\x8b": "gzip", b"PK\x03\x04": "zip"}
 """How files begin that are packed."""
 
@@ -21,7 +23,7 @@ def step_text(data: bytes, name: str) -> str:
     """Decode the content of a STEP file, byte by byte, without what its reader stumbles on.
 
     Comments are left out; so is what follows the end of the file, as a signature or padding, and sections of the third
-    edition beside those of data, which become one. `name` is what messages call the file. Raises ValueError for content
+    edition beside those of data, which become one. In strings there is neither ; nor #. `name` is what messages call the file. Raises ValueError for content
     that is no whole STEP file, or several of them.
     """
     if not data.strip(b"\0 \t\r\n"):
@@ -35,7 +37,7 @@ def step_text(data: bytes, name: str) -> str:
         raise ValueError(f"{name} is cut off: it does not end with END-ISO-10303-21; copy or export it again")
     if _ANOTHER.search(text, end.end()):
         raise ValueError(f"{name} holds several STEP files, one after the other: load them one by one")
-    return _in_one_section(text[: end.end()])
+    return _in_one_section(plain_strings(text[: end.end()]))
 
 
 def _without_comments(text: str) -> str:

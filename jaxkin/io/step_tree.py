@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import re
 
+from jaxkin.io.step_strings import string_value
+
 MAX_STEP_PARTS = 20_000
 """Parts of a file; each takes some thousandths of a second."""
 
@@ -64,8 +66,8 @@ _STATEMENT = re.compile(
 def nameless_occurrences(text: str) -> dict[str, str]:
     """Find the names of the products of those occurrences that have an identifier only, such as "NAUO3", by this.
 
-    Readers call an occurrence without a name by its identifier, which tells a user nothing. Names in the encodings of
-    STEP, and identifiers that mean different products, are left out.
+    Readers call an occurrence without a name by its identifier, which tells a user nothing. Identifiers
+    that mean different products are left out.
     """
     above: dict[str, str] = {}  # what a product definition, or its formation, is of
     names: dict[str, str] = {}  # of products, by their numbers
@@ -74,15 +76,15 @@ def nameless_occurrences(text: str) -> dict[str, str]:
         if "PRODUCT" in statement and (found := _STATEMENT.search(statement)):
             number, kind, identifier, name, of = found.groups()
             if kind == "PRODUCT":
-                names[number] = name or identifier
+                names[number] = string_value(name or identifier)
             elif of:
                 above[number] = of
         elif "NEXT_ASSEMBLY_USAGE_OCCURRENCE" in statement and (found := _OCCURRENCE.search(statement)):
             identifier, name, of = found.groups()
             if name.strip() in ("", identifier):
-                occurrences.setdefault(identifier, set()).add(of)
+                occurrences.setdefault(string_value(identifier), set()).add(of)
     products = {
         each: {names.get(above.get(above.get(of, ""), ""), "") for of in ofs} for each, ofs in occurrences.items()
     }
     single = {identifier: next(iter(found)) for identifier, found in products.items() if len(found) == 1}
-    return {identifier: name for identifier, name in single.items() if name.strip() and "\\" not in name}
+    return {identifier: name for identifier, name in single.items() if name.strip()}
