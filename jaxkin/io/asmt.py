@@ -142,7 +142,7 @@ class _Reader:
             raise ValueError(f"{self.file}: there are no Parts in it")
         if self.root.find(BEHIND_JOINTS) is None:
             raise ValueError(
-                f"{self.file} is cut off: its Assembly has no {BEHIND_JOINTS} behind its joints; copy or export it again"
+                f"{self.file} is cut off: there is no {BEHIND_JOINTS} behind the joints; copy or export it again"
             )
         joints = list(self.root.every("ConstraintSets", "Joints"))
         for each in joints:

@@ -9,7 +9,8 @@ _AWKWARD = re.compile(r"[;#\x80-\xff]")
 be of any encoding."""
 
 _ESCAPED = re.compile(
-    r"\\X2\\((?:[0-9A-Fa-f]{4})+)\\X0\\|\\X4\\((?:[0-9A-Fa-f]{8})+)\\X0\\|\\X\\([0-9A-Fa-f]{2})|\\S\\(.)|\\P[A-I]\\|\\\\", re.S
+    r"\\X2\\((?:[0-9A-Fa-f]{4})+)\\X0\\|\\X4\\((?:[0-9A-Fa-f]{8})+)\\X0\\|\\X\\([0-9A-Fa-f]{2})|\\S\\(.)|\\P[A-I]\\|\\\\",
+    re.S,
 )
 """What stands for letters in strings: of 16 bits, of 32, of 8, of the upper half, a change of page, and a backslash."""
 

@@ -23,8 +23,8 @@ def step_text(data: bytes, name: str) -> str:
     """Decode the content of a STEP file, byte by byte, without what its reader stumbles on.
 
     Comments are left out; so is what follows the end of the file, as a signature or padding, and sections of the third
-    edition beside those of data, which become one. In strings there is neither ; nor #. `name` is what messages call the file. Raises ValueError for content
-    that is no whole STEP file, or several of them.
+    edition beside those of data, which become one. In strings there is neither ; nor #. `name` is what messages call
+    the file. Raises ValueError for content that is no whole STEP file, or several of them.
     """
     if not data.strip(b"\0 \t\r\n"):
         raise ValueError(f"{name} is empty: expected a STEP file")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import codecs
+import re
 from pathlib import Path
 from xml.etree.ElementTree import Element, TreeBuilder
 from xml.parsers import expat
@@ -19,6 +21,12 @@ MOST_LETTERS = 4096
 
 MOST_DEEP = 200
 """Elements inside each other: an instance five assemblies deep is at depth 8."""
+
+_DECLARED = re.compile(rb"<\?xml\b[^>]*?\bencoding\s*=\s*[\"']([\w.:-]+)[\"']")
+"""The encoding that XML declares, in one that has the letters of ASCII in their places."""
+_RECODED = {"gb2312", "gbk", "gb18030", "big5", "big5hkscs", "cp950", "shift_jis", "cp932", "euc_jp", "iso2022_jp",
+            "euc_kr", "cp949", "johab"}  # fmt: skip
+"""Encodings of Eastern Asia, as Python calls them: the parser knows none of more than one byte a letter but Unicode."""
 
 MACROS = "xacro:"
 """Prefix of the tags of the macro language of robot files: they are no elements of a format."""
@@ -40,7 +48,8 @@ def read_xml(path: Path) -> Element:
 def parse_xml(data: bytes, name: str) -> Element:
     """Read the root element of XML as `read_xml` does; `name` is what messages call it."""
     builder, depth = TreeBuilder(), 0
-    parser = expat.ParserCreate()
+    data, encoding = _for_parser(data.lstrip(), name)  # many readers take blank lines before the declaration
+    parser = expat.ParserCreate(encoding)
 
     def start(tag: str, attributes: dict[str, str]) -> None:
         nonlocal depth
@@ -64,10 +73,30 @@ def parse_xml(data: bytes, name: str) -> Element:
     parser.CharacterDataHandler = builder.data
     parser.StartDoctypeDeclHandler = refuse
     try:
-        parser.Parse(data.lstrip(), True)  # many readers take a blank line before the declaration, which XML does not
-    except (expat.ExpatError, LookupError) as error:  # an encoding that there is not is looked up
+        parser.Parse(data, True)
+    except (expat.ExpatError, LookupError, ValueError) as error:  # of encodings that are none, or not known
+        if isinstance(error, ValueError) and str(error).startswith(name):
+            raise
         raise ValueError(f"{name}: damaged XML: {error}") from None
     return builder.close()
+
+
+def _for_parser(data: bytes, name: str) -> tuple[bytes, str | None]:
+    """Recode XML in an encoding of `_RECODED`, and name what it is in then; None where the parser finds that itself.
+
+    What calls itself utf8 is in UTF-8, which the parser knows by no other name.
+    """
+    declared = _DECLARED.match(data)
+    called = declared[1].decode() if declared else ""
+    try:
+        encoding = codecs.lookup(called).name if called else ""
+        if encoding in _RECODED:
+            return data.decode(encoding).encode(), "utf-8"
+    except LookupError:
+        raise ValueError(f"{name}: damaged XML: unknown encoding {called!r}; save it in UTF-8") from None
+    except UnicodeError:
+        raise ValueError(f"{name}: damaged XML: it is not in {called}, as it declares; save it in UTF-8") from None
+    return data, "utf-8" if encoding == "utf-8" else None
 
 
 def _local(tag: str) -> str:
