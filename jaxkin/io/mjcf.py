@@ -21,7 +21,7 @@ from jaxkin.io.mjcf_keyframe import at_keyframe
 from jaxkin.io.mjcf_masses import body_masses, scaled_notes
 from jaxkin.io.mjcf_shapes import Shapes
 from jaxkin.io.mjcf_text import Compiler, Defaults, included, replicated
-from jaxkin.io.mjcf_ties import Ties
+from jaxkin.io.mjcf_ties import Ties, disabled
 from jaxkin.io.robot_gravity import gravity_notes
 from jaxkin.io.robot_model import (
     WORLD,
@@ -98,6 +98,9 @@ class _Reader:
         self.shapes = Shapes(root, self.compiler, self.defaults)
         told = [*unknown_parts(root, SECTIONS, path.name), *_gravity(root, path.name), *scaled_notes(self.compiler)]
         self.found = ModelBodies(notes=[*notes, *told])
+        self.limits_hold = not disabled(root, "limit")
+        if not self.limits_hold:
+            self.found.notes.append(f"{self.file}: its <flag> disables limits: joints have none")
 
     def model(self) -> RobotModel:
         """Go through the bodies, then what ties them together and what moves them."""
@@ -249,7 +252,12 @@ class _Reader:
     def _limits(self, said: dict[str, str], unit: float, value: float, where: str) -> JointLimits:
         """Read the range of a joint from the pose that is written, where it is limited."""
         limited = said.get("limited", "auto")
-        if limited == "false" or "range" not in said or (limited == "auto" and not self.compiler.auto_limits):
+        if (
+            not self.limits_hold
+            or limited == "false"
+            or "range" not in said
+            or (limited == "auto" and not self.compiler.auto_limits)
+        ):
             return ()
         low, high = map(float, numbers(said["range"], 2, where) * unit - value)
         if low >= high:

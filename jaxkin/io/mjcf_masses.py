@@ -23,9 +23,15 @@ OTHERWISE = ("shell", "convex")
 """Entries of `inertia` of a mesh by which MuJoCo weighs something else than what its surface encloses."""
 
 
+LEAST_MASS, LEAST_INERTIA = 1e-6, 1e-9
+"""In kg and kg m^2: what is written as the least of bodies that move, of which MuJoCo asks for some. No force that
+anybody computes shows it."""
+
 _SCALED = {"settotalmass": "all masses are scaled to this sum", "boundmass": "no mass is smaller",
            "boundinertia": "no principal inertia is smaller"}  # fmt: skip
-"""Settings of the compiler by which bodies weigh what is not written -> what MuJoCo makes of a number above zero."""
+"""Settings of the compiler by which bodies weigh what is not written -> what MuJoCo makes of such a number."""
+_UNSEEN = {"settotalmass": 0.0, "boundmass": LEAST_MASS, "boundinertia": LEAST_INERTIA}
+"""Up to what they change nothing, or nothing that shows."""
 
 
 def scaled_notes(compiler: Compiler) -> tuple[str, ...]:
@@ -34,7 +40,7 @@ def scaled_notes(compiler: Compiler) -> tuple[str, ...]:
         f"{compiler.file}: {key}={compiler.said[key]!r} of its <compiler> is not kept ({meaning} in MuJoCo): masses "
         "are as written"
         for key, meaning in _SCALED.items()
-        if float(numbers(compiler.said.get(key), 1, f"{compiler.file}: {key}", (0,))[0]) > 0
+        if float(numbers(compiler.said.get(key), 1, f"{compiler.file}: {key}", (0,))[0]) > _UNSEEN[key]
     )
 
 

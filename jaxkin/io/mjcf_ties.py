@@ -41,6 +41,9 @@ class Ties:
         self.file, self.root = file, root
         self.compiler, self.defaults, self.poses, self.sites = compiler, defaults, poses, sites
         self.notes: list[str] = []
+        self.enabled = not disabled(root, "equality")
+        if not self.enabled and root.find("equality/*") is not None:
+            self.notes.append(f"{file}: its <flag> disables equality constraints: none is active; left out")
         self.held: dict[str, float] = {}
         """Joints that a constraint holds, and where, counted from the pose that is written; found with `couplings`."""
 
@@ -50,8 +53,8 @@ class Ties:
         names = {*taken}
         for each in self.root.iterfind("equality/*"):
             said, where = self.defaults.said(each, key="equality"), f"{self.file}: {tag(each)}"
-            if said.get("active", "true") == "false":
-                self.notes.append(f"{where} is not active; left out")
+            if not self._is_active(said):
+                self.notes += [f"{where} is not active; left out"] if self.enabled else []
             elif each.tag == "joint" or (each.tag == "tendon" and self._lengths(said, where)):
                 continue  # see `couplings`
             elif each.tag not in KINDS:
@@ -69,7 +72,7 @@ class Ties:
         result: list[Coupling] = []
         for each in self.root.iterfind("equality/joint"):
             said, where = self.defaults.said(each, key="equality"), f"{self.file}: {tag(each)}"
-            if said.get("active", "true") == "false":
+            if not self._is_active(said):
                 continue  # noted with the loops
             names = [said[key] for key in ("joint1", "joint2") if key in said]
             for name in names:
@@ -96,11 +99,14 @@ class Ties:
         names = unique(each.name for each in result)  # two constraints may tie the same joints
         return tuple(replace(each, name=name) for each, name in zip(result, names, strict=True))
 
+    def _is_active(self, said: Mapping[str, str]) -> bool:
+        return self.enabled and said.get("active", "true") != "false"
+
     def _length_couplings(self, joints: Mapping[str, RobotJoint]) -> Iterator[Coupling]:
         """Make the couplings of <tendon>: the lengths of fixed tendons are sums of joints, `y_1 - a_1 y_2 = a_0`."""
         for each in self.root.iterfind("equality/tendon"):
             said, where = self.defaults.said(each, key="equality"), f"{self.file}: {tag(each)}"
-            if said.get("active", "true") == "false" or not (lengths := self._lengths(said, where)):
+            if not self._is_active(said) or not (lengths := self._lengths(said, where)):
                 continue
             for name in lengths:
                 if name not in joints:
@@ -198,10 +204,18 @@ class Ties:
 
 
 def _polycoef(said: Mapping[str, str], where: str) -> np.ndarray:
-    """Read the five numbers of the polynomial of a constraint; zero those that are not written."""
-    text = said.get("polycoef") or "0 1"
+    """Read the five numbers of the polynomial of a constraint; those that are not written are 0 1 0 0 0."""
+    text = said.get("polycoef") or "0"
     found = numbers(text, min(len(text.split()), 5), f"{where}: polycoef")
-    return np.append(found, np.zeros(5 - len(found)))
+    return np.append(found, [0.0, 1.0, 0.0, 0.0, 0.0][len(found) :])
+
+
+def disabled(root: Element, what: str) -> bool:
+    """Tell whether a <flag> of the options of a model disables constraints of a kind, "equality" or "limit", or all."""
+    flags: dict[str, str] = {}
+    for each in root.iterfind("option/flag"):
+        flags |= each.attrib
+    return "disable" in (flags.get(what), flags.get("constraint"))
 
 
 _OTHERS = ("tendon", "site", "body", "cranksite", "slidersite", "refsite")

@@ -20,6 +20,7 @@ from jaxkin._arguments import check_mechanism
 from jaxkin._files import whole
 from jaxkin._names import listed
 from jaxkin.geometry.units import METRES
+from jaxkin.io.mjcf_masses import LEAST_INERTIA, LEAST_MASS
 from jaxkin.io.names import unique
 from jaxkin.io.numbers import written
 from jaxkin.io.robot_model import UNLIMITED, WORLD
@@ -40,8 +41,6 @@ if TYPE_CHECKING:
 
 LARGEST_POWER = 4
 """Of the polynomials by which MuJoCo couples two joints."""
-LEAST_MASS, LEAST_INERTIA = 1e-6, 1e-9
-"""In kg and kg m^2: MuJoCo refuses bodies that move and have none, as those without a solid."""
 
 
 def write_mjcf(mechanism: Mechanism, path: str | os.PathLike[str], *, masses: Masses | None = None) -> Path:

@@ -118,3 +118,50 @@ def test_what_follows_a_joint_that_a_weld_locks_is_told_by_name(tmp_path):
     notes = jk.load(tmp_path / "bars.xml").mechanism().notes
     said = "'j1 follows j2' is left out: 'j2' moves nothing here; drive 'j1' with zeros to hold what it ties"
     assert said in notes
+
+
+FLAGGED = """<mujoco><compiler angle="radian"/><option><flag {}="disable"/></option><worldbody>
+<body name="a"><joint name="p" axis="0 1 0" range="-1 1"/><geom size=".1"/>
+<body name="b" pos="1 0 0"><joint name="q" axis="0 1 0"/><geom size=".1"/></body></body></worldbody>
+<equality><connect body1="b" anchor="1 0 0"/><joint joint1="p" joint2="q"/></equality></mujoco>"""
+
+
+@pytest.mark.parametrize(
+    ("flag", "couplings", "limits", "notes"),
+    [
+        ("contact", 1, ((-1.0, 1.0),), []),
+        ("limit", 1, (), ["disables limits"]),
+        ("equality", 0, ((-1.0, 1.0),), ["disables equality"]),
+        ("constraint", 0, (), ["disables limits", "disables equality"]),
+    ],
+)
+def test_what_an_option_of_mujoco_disables_does_not_hold(tmp_path, flag, couplings, limits, notes):
+    """Loops were closed, and joints limited, that the model leaves open, without a word."""
+    path = tmp_path / "model.xml"
+    path.write_text(FLAGGED.format(flag))
+    mechanism = jk.load(path).mechanism()
+    assert len(mechanism.linkage.couplings) == couplings
+    assert mechanism.joints["p"].limits == limits
+    assert len(mechanism.joints) == 2 + couplings
+    told = [note for note in mechanism.notes if "disable" in note]
+    assert all(any(said in note for note in told) for said in notes) and len(told) == len(notes)
+
+
+@pytest.mark.parametrize(("said", "offset", "factor"), [("0.3", 0.3, 1.0), ("0.3 2", 0.3, 2.0), ("", 0.0, 1.0)])
+def test_numbers_of_a_polynomial_that_are_not_written_are_those_of_mujoco(tmp_path, said, offset, factor):
+    """One number is the constant, beside a factor of one: the constraint was left out."""
+    path = tmp_path / "model.xml"
+    polynomial = f'polycoef="{said}"' if said else ""
+    text = FLAGGED.format("contact").replace('<connect body1="b" anchor="1 0 0"/>', "")
+    path.write_text(text.replace('joint2="q"', f'joint2="q" {polynomial}'))
+    assembly = jk.load(path)
+    (p,), (q,) = (assembly.exported.joint_values[name] for name in "pq")
+    np.testing.assert_allclose(p, offset + factor * q, atol=1e-12)  # closed by Newton's method
+    motion = assembly.mechanism().sweep({"q": [0.0, 0.1]})
+    np.testing.assert_allclose(np.asarray(motion.coordinates["p"])[1], 0.1 * factor, atol=1e-12)
+
+
+def test_what_is_written_for_mujoco_is_read_without_a_word_about_its_least_masses(tmp_path):
+    joint = jk.cylindrical("c", "ground", "a", point=(0, 0, 0), axis=(0, 0, 1))
+    jk.write_mjcf(jk.Mechanism.build(fixed=["ground"], joints=[joint], unit="m"), tmp_path / "model.xml")
+    assert not [note for note in jk.load(tmp_path / "model.xml").mechanism().notes if "bound" in note]
