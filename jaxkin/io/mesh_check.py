@@ -18,6 +18,11 @@ MAX_MESH_NODES = 5_000
 MAX_MESH_BYTES = 500_000_000
 """Bytes of a file, or of what is packed in it: what `MAX_TRIANGLES` triangles take as text."""
 
+OBJ_ELEMENTS = (b"f ", b"l ", b"p ", b"curv", b"surf")
+"""How lines of OBJ begin that use corners."""
+OBJ_TAIL = 1_000_000
+"""Bytes at the end of OBJ in which its last lines are looked for."""
+
 UNITS = {"micron": "um", "millimeter": "mm", "centimeter": "cm", "meter": "m", "inch": "in", "foot": "ft"}
 """Units of length of 3MF, and what they are called here."""
 
@@ -80,9 +85,19 @@ def _stl(path: Path, head: bytes, size: int) -> None:
 
 
 def _obj(path: Path, head: bytes, size: int) -> None:
-    """Check that OBJ is text."""
+    """Check that OBJ is text, and that faces follow the last corners: where it is cut off among corners, the objects
+    before are whole."""
     if b"\0" in head:
         raise ValueError(f"{path.name} is no OBJ file: it is not text")
+    with path.open("rb") as file:
+        file.seek(max(0, size - OBJ_TAIL))
+        tail = b"\n" + file.read()
+    last = {kind: max(tail.rfind(b"\n" + kind), tail.rfind(b"\r" + kind)) for kind in (b"v ", *OBJ_ELEMENTS)}
+    unused = last.pop(b"v ") > max(last.values())
+    if unused and (max(last.values()) >= 0 or b"\nf " in path.read_bytes()):
+        raise ValueError(
+            f"{path.name} is cut off: behind its last face come corners that no face has; copy or export it again"
+        )
 
 
 def _ply(path: Path, head: bytes, size: int) -> None:

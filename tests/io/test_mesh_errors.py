@@ -177,3 +177,22 @@ def test_free_forms_end_when_no_face_is_found(tmp_path, monkeypatch):
     (part,) = load(write_stl(tmp_path / "rough.stl", rough[ball.faces])).parts
     assert not part.faces
     assert all("freeform surface" in note for note in part.notes)
+
+
+def test_an_obj_that_is_cut_off_among_corners_is_not_read_without_its_last_parts(tmp_path):
+    """The parts before are whole: the file was read as these, without a word."""
+    boxes = [trimesh.creation.box().apply_translation((3 * k, 0, 0)) for k in range(3)]
+    scene = trimesh.Scene({f"box{k}": box for k, box in enumerate(boxes)})
+    text = trimesh.exchange.obj.export_obj(scene, include_normals=False, include_color=False, include_texture=False)
+    lines = text.splitlines(keepends=True)
+    file = tmp_path / "boxes.obj"
+    file.write_text(text)
+    assert len(load(file, unit="mm").parts) == 3
+    seen = set()
+    for end in range(1, len(lines)):
+        if lines[end - 1].startswith("v ") and any(line.startswith("f ") for line in lines[:end]):
+            file.write_text("".join(lines[:end]))
+            with pytest.raises(ValueError, match=r"boxes\.obj is cut off: behind its last face"):
+                load(file, unit="mm")
+            seen.add(end)
+    assert len(seen) == 16  # corners of two boxes
