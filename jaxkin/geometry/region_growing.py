@@ -105,6 +105,7 @@ class RegionGrowing:
         self.free = np.ones(0, bool)
         self.failures = 0  # seeds tried since the last face was found
         self.work = 0  # tests of one triangle against one surface so far
+        self.skipped = np.zeros(len(rows), bool)  # triangles of facets that a pass did not try, having met its bounds
         self._set_facets(np.unique(mesh.facet_of[rows], return_inverse=True)[1])
 
     def _set_facets(self, facet_of: np.ndarray) -> None:
@@ -134,11 +135,17 @@ class RegionGrowing:
         for within, seeds in product((TIGHT_TOLERANCE, LOOSE_TOLERANCE), (self._stars, self._strips)):
             self.failures = 0
             for facet in order[self.free[order]].tolist():
-                if self.free[facet] and self.failures < MAX_FAILURES and self.work < MAX_WORK:
+                if self.free[facet] and (self.failures >= MAX_FAILURES or self.work >= MAX_WORK):
+                    self.skipped[self.members[facet]] = True
+                elif self.free[facet]:
                     grown = (self._grown(seed, within * self.mesh.tolerance) for seed in seeds(facet))
                     region = next((region for region in grown if region is not None), None)
                     found += [region] if region is not None else []
         return found + self._flat_and_free_form()
+
+    def untried(self) -> TriangleIndices:
+        """List the triangles in no round face that a pass over the seeds did not try before it met its bounds."""
+        return self.rows[self.skipped & self.free[self.facet_of]]
 
     def _stars(self, facet: int) -> Iterator[list[int]]:
         """Yield the seed of a facet with all free facets that share a corner with it, if it is worth a fit."""

@@ -40,11 +40,12 @@ def rough_tolerance(mesh: Facets, rows: TriangleIndices) -> float:
     return min(_ROUGH_TOLERANCE * mesh.tolerance, _MAX_ROUGHNESS * extent)
 
 
-def united(mesh: Facets, found: list[MeshRegion]) -> list[MeshRegion]:
+def united(mesh: Facets, found: list[MeshRegion]) -> tuple[list[MeshRegion], int]:
     """Unite neighbouring round regions to which one surface fits within `LOOSE_TOLERANCE`, the largest regions first.
 
     The surface of the union must be of the kind of the larger region: a piece of a torus, taken alone, may lie on a
-    cone. Returns the regions, the united ones in the places of their largest members.
+    cone. Returns the regions, the united ones in the places of their largest members, and how many pairs of neighbours
+    were not tried, `_MAX_UNION_TRIALS` having been.
     """
     rows: list[TriangleIndices] = [region.rows for region in found]
     surfaces = [region.surface for region in found]
@@ -54,12 +55,14 @@ def united(mesh: Facets, found: list[MeshRegion]) -> list[MeshRegion]:
             owner[region.rows] = k
     tried: set[tuple[int, int, int, int]] = set()
     while True:
+        left = 0
         met = owner[mesh.smooth]
         met = np.unique(np.sort(met[np.all(met >= 0, axis=1) & (met[:, 0] != met[:, 1])], axis=1), axis=0)
         pairs = [sorted(pair, key=lambda k: -len(rows[k])) for pair in met.tolist()]
         for large, small in sorted(pairs, key=lambda pair: -len(rows[pair[0]])):
             key = (large, len(rows[large]), small, len(rows[small]))
             if key in tried or len(tried) >= _MAX_UNION_TRIALS:
+                left += key not in tried
                 continue
             tried.add(key)
             both = np.sort(np.concatenate([rows[large], rows[small]]))
@@ -69,7 +72,7 @@ def united(mesh: Facets, found: list[MeshRegion]) -> list[MeshRegion]:
                 break
         else:
             kept = (k for k, region in enumerate(found) if not region.is_round or owner[region.rows[0]] == k)
-            return [MeshRegion(surfaces[k], rows[k]) for k in kept]
+            return [MeshRegion(surfaces[k], rows[k]) for k in kept], left
 
 
 def absorbed(mesh: Facets, found: list[MeshRegion]) -> list[MeshRegion]:

@@ -7,6 +7,8 @@ recognised too, though no contact state has one, since a band of facets of a tor
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from jaxtyping import Bool
 
@@ -51,18 +53,31 @@ _MAX_LEFTOVER = 4
 """Largest number of triangles of a region on no surface, each of which is then tried as part of a neighbouring face."""
 
 
-def regions(mesh: Facets) -> list[MeshRegion]:
-    """Divide all triangles of a solid into faces, in the order of their first triangles."""
+class FoundRegions(NamedTuple):
+    """The faces of a solid, and what was left of the search for them when it met its bounds."""
+
+    regions: list[MeshRegion]
+    """In the order of their first triangles; each triangle is in one."""
+    untried: TriangleIndices
+    """Triangles in no round face that no such face was looked for at."""
+    pairs: int
+    """Neighbouring pieces of round faces of which it was not looked whether they are one."""
+
+
+def regions(mesh: Facets) -> FoundRegions:
+    """Divide all triangles of a solid into faces."""
     found: list[MeshRegion] = []
+    untried = [np.zeros(0, int)]
     _, first = np.unique(mesh.facet_of, return_index=True)
     within = np.stack([np.arange(len(mesh.triangles)), first[mesh.facet_of]], axis=-1)
     for rows in grouped(components(len(mesh.triangles), np.concatenate([mesh.smooth, within]))):
-        found += _divided(mesh, rows, within)
-    found = [piece for region in absorbed(mesh, united(mesh, found)) for piece in _without_flats(mesh, region)]
+        found += _divided(mesh, rows, within, untried)
+    found, pairs = united(mesh, found)
+    found = [piece for region in absorbed(mesh, found) for piece in _without_flats(mesh, region)]
     found = [_named(mesh, region) for region in _with_strays(mesh, found)]
     bend = max((_largest_bend(mesh, region) for region in found if region.is_round), default=np.inf)
     found = [piece for region in found for piece in _flat_pieces(mesh, region, bend)]
-    return sorted(found, key=lambda region: region.rows[0])
+    return FoundRegions(sorted(found, key=lambda region: region.rows[0]), np.concatenate(untried), pairs)
 
 
 def _named(mesh: Facets, region: MeshRegion) -> MeshRegion:
@@ -73,11 +88,14 @@ def _named(mesh: Facets, region: MeshRegion) -> MeshRegion:
     return region if surface is None or isinstance(surface, Plane) else MeshRegion(surface, region.rows)
 
 
-def _divided(mesh: Facets, rows: TriangleIndices, within: np.ndarray) -> list[MeshRegion]:
+def _divided(
+    mesh: Facets, rows: TriangleIndices, within: np.ndarray, untried: list[TriangleIndices]
+) -> list[MeshRegion]:
     """Divide triangles that join smoothly into faces.
 
     One surface is fitted to all of them first, then to what is left of them when they are cut along edges of smaller
     and smaller angles (`_CREASE_ANGLES`). `within` (triangles, 2) pairs each triangle with the first of its facet.
+    Those at which region growing did not look, having met its bounds, are added to `untried`.
     """
     one = bool(np.all(mesh.facet_of[rows] == mesh.facet_of[rows[0]]))
     surface = surface_of(mesh, rows, LOOSE_TOLERANCE * mesh.tolerance, one_facet=one, thorough=True)
@@ -107,9 +125,12 @@ def _divided(mesh: Facets, rows: TriangleIndices, within: np.ndarray) -> list[Me
     for piece in grouped(components(len(rows), links[np.all(links >= 0, axis=1)])):
         one = bool(np.all(mesh.facet_of[rows[piece]] == mesh.facet_of[rows[piece[0]]]))
         surface = surface_of(mesh, rows[piece], LOOSE_TOLERANCE * mesh.tolerance, one_facet=one) if found else None
-        found += (
-            [MeshRegion(surface, rows[piece])] if surface is not None else RegionGrowing(mesh, rows[piece]).regions()
-        )
+        if surface is not None:
+            found.append(MeshRegion(surface, rows[piece]))
+        else:
+            growing = RegionGrowing(mesh, rows[piece])
+            found += growing.regions()
+            untried.append(growing.untried())
     return found
 
 

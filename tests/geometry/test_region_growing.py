@@ -1,9 +1,13 @@
 """Region growing: how many seeds a facet with many neighbours makes."""
 
 import numpy as np
+import pytest
+import trimesh
 
+from jaxkin.geometry import region_growing, region_union
 from jaxkin.geometry.facets import facets
 from jaxkin.geometry.region_growing import RegionGrowing
+from jaxkin.geometry.regions import regions
 from jaxkin.geometry.weld import weld
 
 
@@ -31,3 +35,30 @@ def test_a_facet_with_many_neighbours_is_tried_with_few_of_them():
     pole = int(np.argmax([len(near) for near in growing.neighbours]))
     assert len(growing.neighbours[pole]) == 90
     assert 0 < len(list(growing._strips(pole))) <= 28
+
+
+def mesh_of(corners):
+    welded = weld(corners, 1e-6)
+    return facets(welded.points, welded.triangles, welded.pairs, 1e-5)
+
+
+@pytest.mark.parametrize(("bound", "most"), [("MAX_FAILURES", 2), ("MAX_WORK", 0)])
+def test_what_a_search_that_meets_its_bounds_leaves_is_counted(monkeypatch, bound, most):
+    """It ended without a word: what was not looked at was called free-form."""
+    mesh = mesh_of(dome(8, 4))
+    whole = regions(mesh)
+    assert not len(whole.untried) and not whole.pairs
+    monkeypatch.setattr(region_growing, bound, most)
+    found = regions(mesh)
+    free = np.concatenate([region.rows for region in found.regions if region.surface is None])
+    assert len(np.intersect1d(found.untried, free)) > len(free) / 2
+    assert sum(len(region.rows) for region in found.regions) == len(mesh.triangles)
+
+
+def test_pairs_of_pieces_that_are_not_tried_are_counted(monkeypatch):
+    """A capsule is a cylinder with two balls, each of which meets it along a smooth edge."""
+    capsule = trimesh.creation.capsule(height=30.0, radius=5.0, count=[32, 32])
+    mesh = mesh_of(np.asarray(capsule.triangles))
+    assert regions(mesh).pairs == 0
+    monkeypatch.setattr(region_union, "_MAX_UNION_TRIALS", 0)
+    assert regions(mesh).pairs == 2

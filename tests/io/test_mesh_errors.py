@@ -176,7 +176,9 @@ def test_free_forms_end_when_no_face_is_found(tmp_path, monkeypatch):
     rough = ball.vertices * (1 + 0.002 * np.random.default_rng(0).normal(size=(len(ball.vertices), 1)))
     (part,) = load(write_stl(tmp_path / "rough.stl", rough[ball.faces])).parts
     assert not part.faces
-    assert all("freeform surface" in note for note in part.notes)
+    *named, ended = part.notes
+    assert all("freeform surface" in note for note in named)
+    assert "the search for round faces ended at its bounds" in ended and "export the part as STEP" in ended
 
 
 def test_an_obj_that_is_cut_off_among_corners_is_not_read_without_its_last_parts(tmp_path):
