@@ -27,6 +27,10 @@ UNITS = {"micron": "um", "millimeter": "mm", "centimeter": "cm", "meter": "m", "
 """Units of length of 3MF, and what they are called here."""
 
 
+_STL_TEXT = re.compile(rb"(?:\xef\xbb\xbf)?\s*solid\b.*?(?:facet|endsolid)", re.I | re.S)
+"""How STL begins that is text, after the mark of UTF-8, where there is one; in letters of either case."""
+
+
 def check(path: Path) -> str | None:
     """Find the unit of the lengths of a mesh file that exists, if it says one.
 
@@ -60,7 +64,7 @@ def too_many(name: str, count: int) -> ValueError:
 def _stl(path: Path, head: bytes, size: int) -> None:
     """Check STL: as text that it ends, else that it has as many bytes as the triangles take that its header counts."""
     count = int.from_bytes(head[80:84], "little")
-    if size != 84 + 50 * count and re.match(rb"\s*solid\b", head) and (b"facet" in head or b"endsolid" in head):
+    if size != 84 + 50 * count and _STL_TEXT.match(head):
         if size > MAX_MESH_BYTES:
             raise ValueError(
                 f"{path.name} is {size / 1e6:.0f} MB, more than {MAX_MESH_BYTES / 1e6:.0f}: export it coarser"
@@ -68,7 +72,7 @@ def _stl(path: Path, head: bytes, size: int) -> None:
         with path.open("rb") as file:
             file.seek(max(0, size - 1000))
             tail = file.read()
-        if b"endsolid" not in tail:
+        if b"endsolid" not in tail.lower():
             raise ValueError(f"{path.name} is cut off: it does not end with endsolid; copy or export it again")
         return
     if size < 84:

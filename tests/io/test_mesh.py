@@ -142,3 +142,13 @@ def test_colours_of_glb_are_of_linear_light(tmp_path):
     (tmp_path / "box.glb").write_bytes(trimesh.Scene(box).export(file_type="glb"))
     (part,) = load(tmp_path / "box.glb").parts
     np.testing.assert_allclose(part.color, (0.5, 1.0, 0.0), atol=3e-3)  # trimesh keeps eight bits of the linear light
+
+
+@pytest.mark.parametrize("written", [str.upper, "\ufeff{}".format, lambda text: text.replace("\n", "\r\n")])
+def test_stl_as_text_is_read_however_it_is_written(tmp_path, written):
+    """In capitals, and behind the mark of UTF-8, it was taken for a damaged binary file."""
+    text = trimesh.exchange.stl.export_stl_ascii(trimesh.creation.box((1.0, 2.0, 3.0)))
+    (tmp_path / "box.stl").write_text(written(text), encoding="utf-8", newline="")
+    (part,) = load(tmp_path / "box.stl").parts
+    assert len(part.faces) == 6
+    np.testing.assert_allclose(part.box, [[-0.5, -1.0, -1.5], [0.5, 1.0, 1.5]], atol=1e-12)
