@@ -69,6 +69,7 @@ def read_step(
     read = partial(instances, products=nameless_occurrences(text), placements=FilePlacements(text))
     found, defects = _instances(one_color_each(text).encode("latin-1"), read, limit)
     placed, bare = _with_solids(text, placed, len(found))
+    _tell_hidden(path.name, text)
     _tell_left_out(path.name, sheets, [name for name in bare if name not in sheets], _documents(text))
     defects += missing(text, sum(placed.values()), found) + far_away(found)
     names = unique(_name(instance, number) for number, instance in enumerate(found, start=1))
@@ -170,6 +171,16 @@ def _tell_left_out(source: str, sheets: Sequence[str], bare: Sequence[str], docu
         said.append(f"it places {listed([*map(repr, bare)])} without a solid{elsewhere}")
     if said:
         warnings.warn(f"{source}: {'; '.join(said)}: left out; export them as solids if they matter", stacklevel=3)
+
+
+def _tell_hidden(source: str, text: str) -> None:
+    """Warn of solids that the file hides: they are parts as all others, and may be none of the mechanism."""
+    if "INVISIBILITY" in text and (hidden := StepShapes(text).hidden()):
+        warnings.warn(
+            f"{source}: solids of {listed([*map(repr, hidden)])} are hidden in it, and read as all others: leave out "
+            f"those that are not meant, by mechanism(exclude=[{hidden[0]!r}]), or export the file without them",
+            stacklevel=3,
+        )
 
 
 def _name(instance: Instance, number: int) -> str:

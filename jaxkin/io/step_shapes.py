@@ -69,6 +69,18 @@ class StepShapes:
         definitions = [number for number, kind in self.kinds.items() if kind in _DEFINITIONS]
         return {each: self._product(each) for each in definitions if each not in with_solids | unknown}
 
+    def hidden(self) -> list[str]:
+        """Name the products of the solids that the file hides, of itself or with the layer that they are on."""
+        shapes = {item: number for number in self.places for item in self.items(number)}
+        hidden = self._named(self._of_kind("INVISIBILITY"), ("STYLED_ITEM", "LAYER_ASSIGNMENT", "REPRESENTATION"))
+        named = {each for number in hidden for each in self._references(number)}
+        solids = {each for each in named if self.kinds.get(each) in EXACT | _TESSELLATED}
+        whole = {number for number in hidden | named if not self._is_bare(number)}
+        return self._names(self._products_of(whole | {shapes[each] for each in solids if each in shapes}))
+
+    def _of_kind(self, kind: str) -> list[str]:
+        return [number for number, own in self.kinds.items() if own == kind]
+
     def items(self, number: str) -> list[str]:
         """List the items of a representation; none of what is no representation."""
         found = _ITEMS.fullmatch(self.statements[self.places[number]]) if number in self.places else None

@@ -1,5 +1,7 @@
 """A product that a STEP file places many times is converted, read and fitted once, whatever its colours."""
 
+import re
+import warnings
 from itertools import count
 from pathlib import Path
 
@@ -8,6 +10,7 @@ import pytest
 
 import jaxkin.io.step as step
 from jaxkin.examples import path
+from jaxkin.io.step import read_step
 from jaxkin.io.step_colors import one_color_each
 from jaxkin.io.step_glb import ProductMesh
 
@@ -109,3 +112,37 @@ def test_parts_that_are_read_are_told():
     told = []
     parts, _ = step.read_step(path("fourbar"), progress=lambda done, total: told.append((done, total)))
     assert told == [(number, len(parts)) for number in range(1, len(parts) + 1)]
+
+
+STYLE = (
+    "#90003=PRESENTATION_STYLE_ASSIGNMENT((#90004));", "#90004=SURFACE_STYLE_USAGE(.BOTH.,#90005);",
+    "#90005=SURFACE_SIDE_STYLE('',(#90006));", "#90006=SURFACE_STYLE_FILL_AREA(#90007);",
+    "#90007=FILL_AREA_STYLE('',(#90008));", "#90008=FILL_AREA_STYLE_COLOUR('',#90009);",
+    "#90009=COLOUR_RGB('',1.,0.,0.);",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("hidden", "told"),
+    [
+        (("#90001=INVISIBILITY((#90002));", "#90002=STYLED_ITEM('',(#90003),#{solid});", *STYLE), True),
+        (("#90001=INVISIBILITY((#90002));", "#90002=PRESENTATION_LAYER_ASSIGNMENT('off','',(#{solid}));"), True),
+        (("#90001=INVISIBILITY((#90002));", "#90002=STYLED_ITEM('',(#90003),#{point});", *STYLE), False),
+    ],
+)
+def test_solids_that_the_file_hides_are_told(tmp_path, hidden, told):
+    """They are parts as all others, without a word: spare ones touch what they are drawn in."""
+    text = path("fourbar").read_text()
+    crank = re.findall(r"#(\d+) = MANIFOLD_SOLID_BREP", text)[1]
+    point = re.findall(r"#(\d+) = CARTESIAN_POINT", text)[0]
+    end = text.rindex("ENDSEC;")
+    lines = "\n".join(hidden).format(solid=crank, point=point)
+    file = tmp_path / "hidden.step"
+    file.write_text(f"{text[:end]}{lines}\n{text[end:]}")
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        parts, _ = read_step(file)
+    assert [part.name for part in parts] == ["ground", "crank", "coupler", "rocker"]
+    texts = [str(each.message) for each in said]
+    assert len(texts) == told
+    assert all("solids of 'crank' are hidden in it" in text and "exclude=['crank']" in text for text in texts)
