@@ -223,18 +223,18 @@ def _closed_intervals(motion: Motion) -> str:
     closed = np.asarray(motion.on_branch)
     if closed.all() or not closed.any():
         return ""
-    found = runs(closed)
-    longest = np.sort(np.argsort(found[:, 0] - found[:, 1], kind="stable")[:_INTERVALS])
-    ends = np.stack([found[longest, 0], found[longest, 1] - 1], axis=1)
+    order, said, at, of = np.arange(len(closed)), np.arange(len(closed)).astype(str), "pose ", ""
     if len(motion.inputs) == 1:
-        ((name, values),) = motion.inputs.items()
+        ((name, given),) = motion.inputs.items()
         scale, unit = (1.0, motion.mechanism.unit) if is_length(name.rpartition(".")[2]) else (180.0 / np.pi, "deg")
-        ends, what = scale * np.asarray(values, float)[ends], f" {unit}".rstrip() + f" of {name}"
-        told = [f"at {first:.4g}" if first == last else f"from {first:.4g} to {last:.4g}" for first, last in ends]
-    else:
-        told, what = [f"at pose {one}" if one == last else f"from pose {one} to {last}" for one, last in ends], ""
+        values, at, of = scale * np.asarray(given, float), "", f" {unit}".rstrip() + f" of {name}"
+        order, said = np.argsort(values, kind="stable"), np.array([f"{value:.4g}" for value in values])
+    found = runs(closed[order])
+    longest = np.sort(np.argsort(found[:, 0] - found[:, 1], kind="stable")[:_INTERVALS])
+    ends = said[order][np.stack([found[longest, 0], found[longest, 1] - 1], axis=1)]
+    told = [f"at {at}{first}" if first == last else f"from {at}{first} to {last}" for first, last in ends]
     more = f", and in {len(found) - len(told)} shorter intervals" if len(told) < len(found) else ""
-    return f"closed {' and '.join(told)}{what}{more}"
+    return f"closed {' and '.join(told)}{of}{more}"
 
 
 def largest_residuals(motion: Motion) -> Float[np.ndarray, " status"]:

@@ -42,8 +42,10 @@ def test_where_not_all_poses_are_closed_the_text_says_between_which_values_of_th
     told = str(mechanism.sweep({"A": inputs}))
     inside = np.degrees(inputs[np.abs(1.0 + inputs) <= LIMIT])
     assert f"  closed from {inside.min():.4g} to {inside.max():.4g} deg of A.phi\n" in told
+    for mixed in (inputs[::-1], np.random.default_rng(0).permutation(inputs)):
+        assert f"  closed from {inside.min():.4g} to {inside.max():.4g} deg" in str(mechanism.sweep({"A": mixed}))
     motion = mechanism.sweep({"A": np.array([0.0, 2.5, 0.1])})
-    assert "  closed at 0 and at 5.73 deg of A.phi\n" in str(motion)
+    assert "  closed from 0 to 5.73 deg of A.phi\n" in str(motion)
     several = replace(motion, inputs=motion.inputs | {"D.phi": motion.inputs["A.phi"]})
     assert "  closed at pose 0 and at pose 2\n" in str(several)
 
