@@ -121,6 +121,39 @@ def test_poses_beside_one_without_numbers_are_checked():
         with_targets(fivebar(), {jk.orientation("b"): poses})
 
 
+@pytest.mark.parametrize("geometry", [False, True])
+def test_traced_poses_that_are_not_rigid_or_leave_the_plane_are_no_numbers(geometry):
+    """Known ones are refused, and only the plane of a traced geometry is not known."""
+    poses = np.tile(np.eye(4), (6, 1, 1))
+    poses[:, :3, :3] = spins(np.linspace(0.0, 1.0, 6), 2)
+    poses[1, 0, 0] *= 1.001
+    poses[2, 2, 3] = 1e-3
+    poses[3, :3, :3] = poses[3, :3, :3] @ np.diag([1.0, 1.0, -1.0])
+    poses[4, 3, 3] = 2.0
+    mechanism, key = fivebar(), jk.pose("b")
+    place = jnp.asarray(mechanism.joints["A"].frames_1[0])
+
+    def drive(given, place):
+        return with_targets(mechanism.with_frames({"A": place}) if geometry else mechanism, {key: given})[1]
+
+    bad = np.isin(np.arange(6), [1, 2, 3, 4])
+    for row in jax.jit(drive)(poses, place).values():
+        np.testing.assert_array_equal(np.isnan(row), bad)
+    slopes = jax.grad(lambda *given: sum(jnp.nansum(row) for row in drive(*given).values()), (0, 1))(poses, place)
+    assert all(np.isfinite(slope).all() for slope in slopes)
+    for which in (1, 3, 4) if geometry else (1, 2, 3, 4):
+        with pytest.raises(ValueError, match="must be rigid|the target leaves it"):
+            jax.jit(lambda place, which=which: drive(poses[[which]], place))(place)
+
+
+def test_poses_in_single_precision_are_rigid():
+    angles = np.linspace(0.0, 3.0, 101)
+    turned = (spins(angles, 0) @ spins(2 * angles, 2)).astype(np.float32)
+    turned = np.einsum("nij,njk,nkl->nil", turned, turned, turned)  # a chain of joints
+    _, drive = with_targets(delta(), {jk.orientation("platform"): turned})
+    assert all(np.isfinite(row).all() for row in drive.values())
+
+
 @pytest.mark.long
 def test_an_arm_in_space_reaches_a_point_with_the_least_movement():
     """Two joints and one more than the point needs: a chain without loops, closed by the target."""

@@ -40,7 +40,7 @@ class InverseProblem:
 
     def __init__(self, mechanism: Mechanism, aims: Sequence[Aim]) -> None:
         linkage = mechanism.linkage
-        self.linkage, self.aims, self.size = linkage, aims, extent(mechanism)
+        self.linkage, self.aims, self.size = linkage, aims, float(extent(mechanism))
         self.places = [(k, c) for k, joint in enumerate(linkage.joints) for c in range(joint.freedoms)]
         self.names = tuple(name for joint in linkage.joints for name in joint.full_names)
         self.lengths = np.array([is_length(name.rpartition(".")[2]) for name in self.names], bool)
