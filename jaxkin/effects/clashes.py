@@ -13,6 +13,7 @@ from jaxtyping import Bool, Float
 from jaxkin._arguments import check_known, check_motion, numbers, several
 from jaxkin._grouped import MAX_LINES
 from jaxkin._names import nearest
+from jaxkin.assembly.joined import all_contacts
 from jaxkin.effects.clash_shapes import ClashShape, boxes_along, displaced, near_pairs, shape_of
 from jaxkin.effects.invariant_faces import SAME_PLACE, invariant
 from jaxkin.effects.penetration import depths
@@ -225,11 +226,12 @@ def _compared(mechanism: Mechanism, setting: FaceSetting, ignore: Sequence[Seque
 
 
 def _misfits(mechanism: Mechanism) -> dict[frozenset[str], dict[tuple[tuple[str, str], tuple[str, str]], float]]:
-    """Collect, for each two parts in contact, the pairs of faces that touch, (part, face) each, and their misfit."""
+    """Collect, for each two parts in contact, the faces that touch, (part, face) each, and their largest misfit."""
     found: dict[frozenset[str], dict[tuple[tuple[str, str], tuple[str, str]], float]] = {}
-    for contact in [*(each for some in mechanism.contacts.values() for each in some), *mechanism.contacts_at_rest]:
+    for contact in all_contacts(mechanism):
         one, other = zip(contact.parts, contact.faces, strict=True)
-        found.setdefault(frozenset(contact.parts), {})[one, other] = contact.misfit
+        of_pair = found.setdefault(frozenset(contact.parts), {})
+        of_pair[one, other] = max(of_pair.get((one, other), 0.0), contact.misfit)
     return found
 
 
