@@ -24,6 +24,8 @@ from jaxkin.linkage.linkage import Linkage
 MAX_MISFIT = 1e-9
 """Largest misfit of the lengths of a part, relative to its size, that is not reported as a contradiction: far above
 rounding in float64."""
+MAX_MISFIT_SINGLE = 1e-5
+"""That of lengths that JAX traces in float32: rounding alone leaves 1e-7."""
 
 _ORDER = ("angle", "distance", "radius", "offset")
 """Order in which the quantities of a body are changed."""
@@ -139,9 +141,10 @@ def with_lengths(linkage: Linkage, changes: Mapping[Any, Any]) -> Linkage:
         ideal = with_lengths(linkage.with_joints(linkage.ideal), changes)
         changed = changed.with_joints(changed.joints, ideal.joints)
     for row, misfit in misfits.items():
+        most = MAX_MISFIT_SINGLE if misfit.dtype == np.float32 else MAX_MISFIT
         known = lax.stop_gradient(misfit) if traced(misfit) else misfit  # under `grad` alone the number is there
         if not traced(known):
-            if not float(known) <= MAX_MISFIT:
+            if not float(known) <= most:
                 asked = ", ".join(f"{key!r}: {_shown(changes[key])}" for key in changes)
                 raise ValueError(
                     f"part {row!r} cannot have {asked} with all its other lengths as they are (they miss by "
@@ -151,7 +154,7 @@ def with_lengths(linkage: Linkage, changes: Mapping[Any, Any]) -> Linkage:
         else:
             # Traced numbers cannot raise: every pose gets the status NONFINITE instead of a wrong length. The choice
             # keeps NaN out of the derivative, which a sum would hand on.
-            fits = misfit <= MAX_MISFIT
+            fits = misfit <= most
             joints = [
                 replace(joint, **{side: jnp.where(fits, getattr(joint, side), jnp.nan) for side in _SIDES})
                 if row in [linkage.structure.row_of[part] for part in joint.parts]
