@@ -24,8 +24,8 @@ from jaxkin.linkage.linkage import Linkage
 MAX_MISFIT = 1e-9
 """Largest misfit of the lengths of a part, relative to its size, that is not reported as a contradiction: far above
 rounding in float64."""
-MAX_MISFIT_SINGLE = 1e-5
-"""That of lengths that JAX traces in float32: rounding alone leaves 1e-7."""
+MISFIT_ROUNDINGS = 100
+"""The same in units of rounding, where these are more: parts of three to six joints have two of them in float32."""
 
 _ORDER = ("angle", "distance", "radius", "offset")
 """Order in which the quantities of a body are changed."""
@@ -141,7 +141,7 @@ def with_lengths(linkage: Linkage, changes: Mapping[Any, Any]) -> Linkage:
         ideal = with_lengths(linkage.with_joints(linkage.ideal), changes)
         changed = changed.with_joints(changed.joints, ideal.joints)
     for row, misfit in misfits.items():
-        most = MAX_MISFIT_SINGLE if misfit.dtype == np.float32 else MAX_MISFIT
+        most = max(MAX_MISFIT, MISFIT_ROUNDINGS * float(jnp.finfo(misfit.dtype).eps))
         known = lax.stop_gradient(misfit) if traced(misfit) else misfit  # under `grad` alone the number is there
         if not traced(known):
             if not float(known) <= most:

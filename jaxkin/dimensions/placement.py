@@ -32,10 +32,11 @@ Damping that falls with the squared residual steadies the first steps and leaves
 
 _LEAST_DAMPING = 1e-15
 """Damping over the trace at zero residual: of rounding size, so that a singular normal matrix can be solved."""
+_LEAST_DAMPING_ROUNDINGS = 4.0
+"""The same in units of rounding, where these are more, as in float32."""
 
-TINY = 1e-300
-"""Added to numbers that may be zero before a division, or a square root, whose derivative is infinite at zero; far
-below all other numbers here in float64."""
+_NORMAL_NUMBERS = 1e8
+"""`tiny` over the smallest normal number."""
 
 _HOST_STEP = 1e-16
 """Norm of a step, in units of the size, below which the iteration on the host (float64) ends: half the spacing of
@@ -46,7 +47,14 @@ _DEVICE_ROUNDINGS = 2.0
 
 _RANK_TOLERANCE = 1e-8
 """Singular values of the Jacobian below this, relative to the largest, count as zero in derivatives: the root of the
-float64 rounding error, since redundant equations agree only as far as the positions are solved."""
+float64 rounding error, since redundant equations agree only as far as the positions are solved. In float32, half the
+root of its rounding error."""
+
+
+def tiny(dtype: Any) -> float:
+    """Return what is added to numbers that may be zero before a division, or a square root, whose derivative is
+    infinite at zero; far below all other numbers here."""
+    return _NORMAL_NUMBERS * float(jnp.finfo(dtype).tiny)
 
 
 class PairEquations(NamedTuple):
@@ -110,15 +118,17 @@ def _search(xp, loop, pairs: PairEquations, start):
     `loop(step, start)` repeats `step`, which maps positions to the next positions and the norm of the step.
     """
     weights = xp.repeat(pairs.weights, 3)
+    least = tiny(start.dtype)
+    least_damping = max(_LEAST_DAMPING, _LEAST_DAMPING_ROUNDINGS * float(xp.finfo(start.dtype).eps))
 
     def step(positions):
         rows, jacobian = residuals(xp, pairs, positions)
         slope = jacobian.reshape(rows.size, -1) * weights
         gram = slope.T @ slope
-        damping = (_DAMPING * xp.minimum(rows @ rows, 1.0) + _LEAST_DAMPING) * xp.trace(gram) + TINY
+        damping = (_DAMPING * xp.minimum(rows @ rows, 1.0) + least_damping) * xp.trace(gram) + least
         delta = -weights * xp.linalg.solve(gram + damping * xp.eye(len(gram)), slope.T @ rows)
         length = xp.sqrt(delta @ delta)
-        delta = delta * xp.minimum(1.0, _MAX_STEP / (length + TINY))
+        delta = delta * xp.minimum(1.0, _MAX_STEP / (length + least))
         return positions + delta.reshape(positions.shape), length
 
     return loop(step, start)
@@ -160,5 +170,6 @@ def _solve_jvp(primals, tangents):
     _, d_rows = jax.jvp(lambda p, x: residuals(jnp, p, x)[0], (pairs, positions), (d_pairs, d_start))
     rows, jacobian = residuals(jnp, pairs, positions)
     weights = jnp.repeat(pairs.weights, 3)
-    inverse = jnp.linalg.pinv(jacobian.reshape(rows.size, -1) * weights, rtol=_RANK_TOLERANCE)
+    least = max(_RANK_TOLERANCE, 0.5 * float(jnp.finfo(rows.dtype).eps) ** 0.5)
+    inverse = jnp.linalg.pinv(jacobian.reshape(rows.size, -1) * weights, rtol=least)
     return positions, d_start - (weights * (inverse @ d_rows)).reshape(positions.shape)

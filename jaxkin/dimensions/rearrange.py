@@ -20,7 +20,7 @@ from jax import lax
 
 from jaxkin.dimensions.feature_geometry import Between, between
 from jaxkin.dimensions.features import Feature, Quantity
-from jaxkin.dimensions.placement import TINY, PairEquations, residuals, solve_positions
+from jaxkin.dimensions.placement import PairEquations, residuals, solve_positions, tiny
 
 ROUNDINGS = 64
 """Components of unit vectors that count as zero, in units of the spacing of numbers near 1: several products."""
@@ -54,8 +54,8 @@ def arrange(xp, layout: Layout, original, guess, targets) -> tuple[Any, Any]:
     size of the part (the root of the summed squared distances of the origins from their mean). The misfit is of
     rounding size where all lengths can hold, else a differentiable measure of their contradiction.
     """
-    origins = original[:, :3, 3]
-    size = xp.sqrt(xp.sum((origins - origins.mean(axis=0)) ** 2)) + TINY
+    origins, least = original[:, :3, 3], tiny(original.dtype)
+    size = xp.sqrt(xp.sum((origins - origins.mean(axis=0)) ** 2)) + least
     # In the axes of the first feature what its joints leave free is often one coordinate, which no equation moves by
     # rounding then: a slide in a plane stays in it.
     turn = guess[0, :3, :3] if xp is np else lax.stop_gradient(guess[0, :3, :3])
@@ -64,7 +64,7 @@ def arrange(xp, layout: Layout, original, guess, targets) -> tuple[Any, Any]:
     positions = solve_positions(xp, pairs, start)
     # the norm of the residuals is least at these positions, so its derivative by them is zero
     rows, _ = residuals(xp, pairs, positions if xp is np else lax.stop_gradient(positions))
-    misfit = xp.sqrt(xp.sum(rows**2) + xp.sum(pairs.angle_errors**2) + TINY)
+    misfit = xp.sqrt(xp.sum(rows**2) + xp.sum(pairs.angle_errors**2) + least)
     moved = guess[:, :3, 3] + size * (positions - start) @ turn.T  # exactly zero for features that stay
     poses = xp.concatenate([guess[:, :3, :3], moved[:, :, None]], axis=2)
     return xp.concatenate([poses, guess[:, 3:]], axis=1), misfit
