@@ -17,7 +17,7 @@ import numpy as np
 from jaxkin.assembly.gear_proposal import GearProposal, Meshing
 from jaxkin.assembly.racks import rack_proposal
 from jaxkin.assembly.toothed_parts import MODULE, PARALLEL_AXES, Turn, is_around, slides_of, turns_of
-from jaxkin.geometry.part import Part, size
+from jaxkin.geometry.part import Part, box_corners, size
 from jaxkin.geometry.pose import Points
 from jaxkin.geometry.teeth import Teeth, find_teeth
 from jaxkin.joints.coupling import Coupling, gear, relation
@@ -147,8 +147,7 @@ def _coupling(
 
 def _pair(one: Part, other: Part, turn_1: Turn, turn_2: Turn, near: float) -> _Pair | None:
     """Find outlines of two parts about two axes whose pitch circles touch; None where there are none."""
-    low, high = np.maximum(one.box[0], other.box[0]), np.minimum(one.box[1], other.box[1])
-    corners = np.stack(np.meshgrid(*zip(low, high, strict=True), indexing="ij"), axis=-1).reshape(-1, 3)
+    corners = box_corners(np.stack([np.maximum(one.box[0], other.box[0]), np.minimum(one.box[1], other.box[1])]))
     parallel = np.linalg.norm(np.cross(turn_1.axis, turn_2.axis)) < PARALLEL_AXES
     apex = None if parallel else _meeting(turn_1, turn_2, near)
     if not parallel and apex is None:

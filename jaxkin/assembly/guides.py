@@ -10,6 +10,7 @@ from jaxtyping import Float
 from jaxkin.assembly.inference.contact_faces import faces_of
 from jaxkin.geometry.outline import widest_gap
 from jaxkin.geometry.part import Face
+from jaxkin.geometry.triangles import double_areas
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
 
@@ -45,7 +46,7 @@ def is_guide(mechanism: Mechanism, joint: Joint) -> bool:
 def _hold(faces: list[Face], across: Float[np.ndarray, "3 2"]) -> bool:
     """Tell whether the normals of faces, seen along a slide, leave no half of all directions free."""
     corners = np.concatenate([face.triangles for face in faces])
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) @ across
+    normals = double_areas(corners) @ across
     return widest_gap(np.arctan2(normals[:, 1], normals[:, 0])) < np.pi - TILT
 
 

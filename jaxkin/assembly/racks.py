@@ -8,7 +8,7 @@ import numpy as np
 
 from jaxkin.assembly.gear_proposal import GearProposal
 from jaxkin.assembly.toothed_parts import MODULE, PARALLEL_AXES, Slide, Turn, is_around
-from jaxkin.geometry.part import Part
+from jaxkin.geometry.part import Part, box_corners
 from jaxkin.geometry.pose import Points
 from jaxkin.geometry.teeth import BINS, MAX_TEETH, along_segments, find_teeth, section, section_heights
 from jaxkin.geometry.tooth_rows import MIN_ROW, ToothRow, row_of_teeth
@@ -29,9 +29,9 @@ def rack_proposal(wheel: Part, row: Part, turn: Turn, slide: Slide) -> GearPropo
     across = np.cross(turn.axis, slide.direction)
     if turn.carrier != slide.carrier or abs(turn.axis @ slide.direction) > PARALLEL_AXES or not is_around(wheel, turn):
         return None
-    low, high = np.maximum(wheel.box[0], row.box[0]), np.minimum(wheel.box[1], row.box[1])
-    corners = np.stack(np.meshgrid(*zip(low, high, strict=True), indexing="ij"), axis=-1).reshape(-1, 3) @ turn.axis
-    between = (float(corners.min()), float(corners.max()))
+    shared = np.stack([np.maximum(wheel.box[0], row.box[0]), np.minimum(wheel.box[1], row.box[1])])
+    heights = box_corners(shared) @ turn.axis
+    between = (float(heights.min()), float(heights.max()))
     teeth = [each for each in find_teeth(wheel.triangles, turn.point, turn.axis, between) if each.side == "outer"]
     if not teeth:
         return None

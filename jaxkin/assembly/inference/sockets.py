@@ -88,11 +88,7 @@ def _spheres(part: Part) -> list[SphericalFaces]:
     for face in part.faces:
         surface = face.surface
         if isinstance(surface, Sphere):
-            corners = face.triangles
-            area = (
-                np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum() / 2
-            )
-            share = float(area) / (4 * np.pi * surface.radius**2)
+            share = face.area / (4 * np.pi * surface.radius**2)
             for index, (first, known) in enumerate(groups):
                 apart = np.linalg.norm(first.centre - surface.centre) + abs(first.radius - surface.radius)
                 if first.side == surface.side and apart <= SAME_SPHERE * first.radius:

@@ -13,6 +13,7 @@ from jaxkin.assembly.inference.bores import Bore
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector
 from jaxkin.geometry.surfaces import Plane, Surface
+from jaxkin.geometry.triangles import double_areas
 
 ACROSS = 1e-3
 """Radians between an axis and the normal of a face that stands across it."""
@@ -87,7 +88,7 @@ def slanted_stops(part: Part, axis: Bore) -> list[StopFace]:
         if stands_across(face.surface, axis.axis):
             continue
         triangles = face.triangles - axis.point
-        slopes = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+        slopes = double_areas(triangles)
         slopes = (slopes @ axis.axis) / np.maximum(np.linalg.norm(slopes, axis=1), np.finfo(float).tiny)
         for way in (1.0, -1.0):
             points = _beside(triangles[way * slopes > MIN_SLOPE], axis)
