@@ -78,7 +78,7 @@ class Travel(NamedTuple):
     left_open: Float[np.ndarray, "loops 4 4"]
     """For each loop the displacement that is left when it has been travelled: the identity if the loop is closed."""
     places: Mapping[str, Transform]
-    """Displacement of each row of parts from the assembled pose; the part at which the first loop starts is at rest."""
+    """Displacement of each row of parts from the assembled pose; parts that joints of other loop groups place rest."""
     coupling_residual: Float[np.ndarray, " couplings"]
     """Left-hand side of each coupling less its offset, over its largest coefficient."""
     coupling_jacobian: Float[np.ndarray, "couplings columns"]
@@ -126,6 +126,14 @@ class ClosedLoops:
         self.thresholds = SINGLE if single else DOUBLE
         row_of = structure.row_of
         self.ends = {index: (row_of[joint.parts[0]], row_of[joint.parts[1]]) for index, joint in joints.items()}
+        looped = {joint for loop in loop_group.loops for joint, _ in loop}
+        self.hanging = {
+            row_of[part]: (row_of[parent], joint, sign)
+            for part, parent, joint, sign in structure.tree
+            if joint in joints and joint not in looped
+        }
+        """Row of parts that hangs by a coupled joint in no loop -> the row that it hangs on, the joint, and +1 if that
+        row is part 1 of the joint, else -1."""
         origins = np.concatenate([np.asarray(joint.frames_1, float)[:, :3, 3] for joint in joints.values()])
         centre, length = centroid_and_length(origins, np)
         self.centre, self.length = centre, float(length)
@@ -208,10 +216,23 @@ class ClosedLoops:
         residual = np.zeros((len(self.loop_group.loops), 6))
         jacobian = np.zeros((len(self.loop_group.loops), 6, len(q)))
         screws = np.zeros((6, len(q)))
+
+        def place(row: str) -> Transform:
+            """Place a row of parts that the loops before have not placed: at rest, unless it hangs by a joint."""
+            if row not in places:
+                places[row] = np.eye(4)
+                if row in self.hanging:
+                    parent, joint, sign = self.hanging[row]
+                    step, own = steps[joint]
+                    above = place(parent)
+                    places[row] = above @ (step if sign > 0 else inverse(step))
+                    screws[:, self.slices[joint]] = moved(above if sign > 0 else places[row], own)
+            return places[row]
+
         for row, (misfit, twists) in enumerate(zip(residual, jacobian, strict=True)):
             loop = self.loop_group.loops[row]
             # a loop starts at a part that the loops before it hold (Section 4.2)
-            start = pose = places.setdefault(self.ends[loop[0][0]][0 if loop[0][1] > 0 else 1], np.eye(4))
+            start = pose = place(self.ends[loop[0][0]][0 if loop[0][1] > 0 else 1])
             starts.append(start)
             for joint, sign in loop:
                 step, own = steps[joint]
@@ -226,12 +247,8 @@ class ClosedLoops:
             left = pose @ inverse(start)
             left_open.append(left)
             misfit[:] = closure_twist(left)
-        for index, (joint, other) in self.ends.items():  # a coupled joint in no loop
-            if joint not in places or other not in places:
-                step, own = steps[index]
-                pose = places.setdefault(joint, np.eye(4))
-                screws[:, self.slices[index]] = moved(pose, own)
-                places.setdefault(other, pose @ step)
+        for row in self.hanging:
+            place(row)
         coupling_residual, coupling_jacobian = self._evaluate_couplings(q)
         return Travel(
             np.append(residual.ravel(), coupling_residual),

@@ -103,21 +103,26 @@ def _rates_of_places(
 ) -> Float[np.ndarray, "entries columns"]:
     """Differentiate the entries of `_differences` with respect to the coordinates, along the loops as `travel` does."""
     twists: dict[str, Screws] = {}
+
+    def twist_of(row: str) -> Screws:
+        if row not in twists:
+            twists[row] = np.zeros_like(screws)
+            if row in loops.hanging:
+                parent, joint, sign = loops.hanging[row]
+                twists[row] = twist_of(parent).copy()
+                twists[row][:, loops.slices[joint]] += sign * screws[:, loops.slices[joint]]
+        return twists[row]
+
     for loop in loops.loop_group.loops:
         first, sign = loop[0]
-        twist = twists.setdefault(loops.ends[first][0 if sign > 0 else 1], np.zeros_like(screws))
+        twist = twist_of(loops.ends[first][0 if sign > 0 else 1])
         for joint, sign in loop:
             twist = twist.copy()
             twist[:, loops.slices[joint]] += sign * screws[:, loops.slices[joint]]
             twists.setdefault(loops.ends[joint][1 if sign > 0 else 0], twist)
-    for joint, (one, other) in loops.ends.items():  # coupled joints in no loop, as `travel` places their parts
-        if one not in twists or other not in twists:
-            twist = twists.setdefault(one, np.zeros_like(screws)).copy()
-            twist[:, loops.slices[joint]] += screws[:, loops.slices[joint]]
-            twists.setdefault(other, twist)
     rows = []
     for part, place in places.items():
-        turn, shift = twists[part][:3], twists[part][3:]
+        turn, shift = np.split(twist_of(part), 2)
         entries = [np.cross(turn, column, axisa=0, axisb=0, axisc=0) for column in place[:3].T]
         entries[3] = entries[3] + shift
         rows += entries
