@@ -9,7 +9,7 @@ are cheap and contain the faces: each loss that is told is certain, and some los
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import TYPE_CHECKING
 
@@ -191,20 +191,24 @@ def _over_all_poses(found: LostContact, closed: np.ndarray, poses: int) -> LostC
     """Spread a lost contact from the closed poses over all poses; its gap is zero at the others."""
     gaps, loose = np.zeros(poses), np.zeros(poses, bool)
     gaps[closed], loose[closed] = found.gaps, found.loose
-    return LostContact(found.joint, found.contact, gaps, loose, found.left)
+    return replace(found, gaps=gaps, loose=loose)
 
 
 def joined(pieces: Sequence[tuple[Sequence[LostContact], int]]) -> tuple[LostContact, ...]:
     """Join the lost contacts of consecutive pieces of a motion, each piece with its number of poses."""
-    poses = sum(count for _, count in pieces)
-    found: dict[tuple[str, tuple[str, str], tuple[str, str]], LostContact] = {}
-    start = 0
+    found: dict[tuple[str, tuple[str, str], tuple[str, str]], list[tuple[int, LostContact]]] = {}
+    poses = 0
     for lost, count in pieces:
         for each in lost:
-            key = (each.joint, each.contact.parts, each.contact.faces)
-            if key not in found:
-                found[key] = LostContact(each.joint, each.contact, np.zeros(poses), np.zeros(poses, bool), each.left)
-            found[key].gaps[start : start + count] = each.gaps
-            found[key].loose[start : start + count] = each.loose
-        start += count
-    return tuple(found.values())
+            found.setdefault((each.joint, each.contact.parts, each.contact.faces), []).append((poses, each))
+        poses += count
+    return tuple(_joined(same, poses) for same in found.values())
+
+
+def _joined(same: Sequence[tuple[int, LostContact]], poses: int) -> LostContact:
+    """Join what one contact is in pieces of a motion, each with the number of its first pose."""
+    gaps, loose = np.zeros(poses), np.zeros(poses, bool)
+    for first, each in same:
+        gaps[first : first + len(each.gaps)], loose[first : first + len(each.loose)] = each.gaps, each.loose
+    worst = max((each for _, each in same), key=lambda each: each.gap)
+    return replace(worst, gaps=gaps, loose=loose)

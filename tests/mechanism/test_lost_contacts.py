@@ -217,6 +217,14 @@ def test_a_long_range_says_what_a_short_one_does(tmp_path):
     assert write_stream(mechanism.stream(drive, 200), tmp_path / "motion.npz") == str(whole)
 
 
+def test_what_is_left_of_a_joint_is_told_of_the_chunk_in_which_its_faces_are_farthest_apart(tmp_path):
+    motion = slide(tmp_path, {"guide": GUIDE, "slider": SLIDER}).sweep({"guide-slider": np.array([90.0, 99.0])})
+    whole = motion.lost_contacts[0]
+    pieces = [replace(whole, gaps=gap * np.ones(1), loose=np.ones(1, bool), left=f"{gap}") for gap in (1.0, 3.0, 2.0)]
+    (one,) = joined([((piece,), 1) for piece in pieces])
+    assert one.left == "3.0" and one.gaps.tolist() == [1.0, 3.0, 2.0]
+
+
 def test_poses_that_are_not_closed_are_not_judged(tmp_path):
     motion = slide(tmp_path, {"guide": GUIDE, "slider": SLIDER}).sweep({"guide-slider": np.array([0.0, 90.0, 95.0])})
     cut = replace(motion, status=jax.numpy.array([0, 0, 1]) + motion.status[0])
