@@ -143,12 +143,16 @@ def _sliding(linkage: Linkage, moving: MovingParts, number: int, given: JointFri
         return jnp.where(jnp.sum(rate**2, axis=0) > still, rate, 0.0)
 
     # slide and turn each by itself: a hinge turns, however small it is
-    s = jnp.concatenate([moving_part(velocity_at(twist, arm)), radius * moving_part(twist[:3])])
-    square = jnp.sum(s**2, axis=0)
-    rests = square == 0.0
+    slide, turn = velocity_at(twist, arm), twist[:3]
+    moves = jnp.concatenate([moving_part(slide), radius * moving_part(turn)])
+    rests = jnp.sum(moves**2, axis=0) == 0.0
     smooth = jnp.asarray(given.smooth, float) / scale.size
-    rate = jnp.where(rests, 1.0, square) + smooth**2
-    direction = -jnp.where(rests, 0.0, 1.0) * s / jnp.sqrt(rate)
+    # what fades has a direction at rest: its derivative by the velocity is not zero there
+    fades = smooth > 0
+    s = jnp.where(fades, jnp.concatenate([slide, radius * turn]), moves)
+    none = rests & ~fades
+    rate = jnp.where(none, 1.0, jnp.sum(s**2, axis=0)) + smooth**2
+    direction = -jnp.where(none, 0.0, 1.0) * s / jnp.sqrt(rate)
     return Sliding(jnp.concatenate([radius * direction[3:] + cross(arm, direction[:3]), direction[:3]]), rests)
 
 

@@ -67,6 +67,19 @@ def test_a_block_whose_friction_fades():
     np.testing.assert_allclose(found.forces["P.z"], 3.0 * 9.81 * (0.5 + 0.2 * np.cos(np.pi / 6) * share), rtol=1e-12)
 
 
+def test_friction_that_fades_has_a_derivative_where_nothing_slides():
+    """Near rest friction is mu N v / v0: its derivative by the velocity is mu N / v0, also where that is zero."""
+    motion = block().sweep({"P": np.zeros(3)})
+    own = jk.masses(motion.mechanism, given={"block": jk.Mass(3.0, (0, 0, 0))})
+
+    def push(rate):
+        fades = jk.joint_friction("P", 0.2, smooth=40.0)
+        return jk.drive_forces(motion, own, applied=fades, rates={"P": jnp.full(3, rate)}).forces["P.z"][0]
+
+    expected = 3.0 * 9.81 * 0.2 * np.cos(np.pi / 6) / 40.0
+    np.testing.assert_allclose(jax.grad(push)(0.0), expected, rtol=1e-12)
+
+
 @pytest.mark.long
 def test_a_lead_screw_lifts_by_the_formula_of_the_textbooks_and_locks_itself():
     """T = W r tan(lead +- rho); pushed by its nut it moves only where rho < lead: F = T / (r tan(lead - rho)).
