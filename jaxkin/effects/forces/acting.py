@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -31,7 +31,8 @@ class Acting(NamedTuple):
 
     masses: Masses | None = None
     gravity: Any = STANDARD_GRAVITY
-    applied: Sequence[Applied] | Applied = ()
+    applied: tuple[Applied, ...] = ()
+    """As `all_applied` returns them."""
     rates: Mapping[str, Any] | None = None
     accelerations: Mapping[str, Any] | None = None
 
@@ -44,13 +45,17 @@ class ActingNumbers(NamedTuple):
     applied: tuple[Load, ...]
 
 
-def loads_and_frictions(acting: Acting) -> tuple[tuple[Load, ...], tuple[JointFriction, ...]]:
-    """Split what is applied into loads and friction of joints, which depends on the loads; ValueError for all else."""
-    given = acting.applied
+def all_applied(given: Iterable[Applied] | Applied) -> tuple[Applied, ...]:
+    """List what is applied, once: an iterator has nothing left for whoever asks again; ValueError for all else."""
     applied = (given,) if isinstance(given, Applied) else several(given, "applied", "loads", "[jk.force(...)]")
     for each in applied:
         if not isinstance(each, Applied):
             raise ValueError(f"applied loads are made by jk.force, jk.torque, jk.spring, ..., got {each!r}")
+    return applied
+
+
+def loads_and_frictions(applied: Sequence[Applied]) -> tuple[tuple[Load, ...], tuple[JointFriction, ...]]:
+    """Split what is applied into loads and friction of joints, which depends on the loads."""
     loads = tuple(each for each in applied if not isinstance(each, JointFriction))
     return loads, tuple(each for each in applied if isinstance(each, JointFriction))
 
@@ -58,7 +63,7 @@ def loads_and_frictions(acting: Acting) -> tuple[tuple[Load, ...], tuple[JointFr
 def check(motion: Motion, acting: Acting) -> None:
     """Raise ValueError for arguments that do not fit the motion, with what to write instead."""
     check_motion(motion, "forces")
-    mechanism, masses, (applied, frictions) = motion.mechanism, acting.masses, loads_and_frictions(acting)
+    mechanism, masses, (applied, frictions) = motion.mechanism, acting.masses, loads_and_frictions(acting.applied)
     for each in applied:
         parts = each.parts if isinstance(each, Spring) else () if isinstance(each, JointLoad) else (each.part,)
         for part in parts:
@@ -94,7 +99,7 @@ def acting_numbers(acting: Acting) -> ActingNumbers:
     gravity = numbers(acting.gravity, "gravity", expected)
     if gravity.shape != (3,) or not (traced(gravity) or np.isfinite(gravity).all()):
         raise ValueError(f"gravity must be {expected}, got {acting.gravity!r}")
-    return ActingNumbers(acting.masses, gravity, loads_and_frictions(acting)[0])
+    return ActingNumbers(acting.masses, gravity, loads_and_frictions(acting.applied)[0])
 
 
 def given_rates(motion: Motion, acting: Acting) -> tuple[Inputs, Inputs] | None:

@@ -20,6 +20,7 @@ from jaxkin.effects.forces.acting import (
     Acting,
     ActingNumbers,
     acting_numbers,
+    all_applied,
     check,
     given_rates,
     loads_and_frictions,
@@ -143,7 +144,7 @@ def drive_forces(
     Works inside `jit`, `vmap` and `grad`. Poses that are not closed (`motion.closed`) are NaN. Raises ValueError where
     nothing acts, for parts and coordinates that are not there, and for masses of another mechanism.
     """
-    acting = Acting(masses, gravity, applied, rates, accelerations)
+    acting = Acting(masses, gravity, all_applied(applied), rates, accelerations)
     check(motion, acting)
     drive, known = known_motion(motion)
     speeds = given_rates(motion, acting)
@@ -153,7 +154,7 @@ def drive_forces(
         others = numbers._replace(masses=None)
         found = changes(drive, known, dict(motion.inputs), None) if len(drive.loop_groups) > 1 else None
         return DriveForces(motion, *_at_rest(drive, linkage, known, dict(motion.inputs), others, of_parts, found))
-    frictions = loads_and_frictions(acting)[1]
+    frictions = loads_and_frictions(acting.applied)[1]
     if not frictions:
 
         def of_poses(

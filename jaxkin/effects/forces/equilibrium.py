@@ -13,7 +13,7 @@ from jaxtyping import Bool, Float, Int
 
 from jaxkin._arguments import by_name, check_known, check_mechanism, numbers
 from jaxkin._runs import runs
-from jaxkin.effects.forces.acting import STANDARD_GRAVITY, Acting, loads_and_frictions
+from jaxkin.effects.forces.acting import STANDARD_GRAVITY, all_applied, loads_and_frictions
 from jaxkin.effects.forces.drive import drive_forces
 from jaxkin.effects.forces.given import Applied, rows_per_pose
 from jaxkin.effects.forces.masses import Masses
@@ -146,8 +146,8 @@ def equilibrium(
     """
     check_mechanism(mechanism, "equilibria")
     drive = by_name(drive, "driven displacements", "{'A': np.linspace(0, 2 * np.pi, 73)}")
-    check_known("equilibria", "jk.equilibrium", mechanism, dict(drive), masses, applied)
-    given, frictions = loads_and_frictions(Acting(masses, gravity, applied))
+    given, frictions = loads_and_frictions(all_applied(applied))
+    check_known("equilibria", "jk.equilibrium", mechanism, dict(drive), masses, given, frictions)
     if frictions:
         raise ValueError(
             f"friction in {frictions[0].joint!r} has no direction at rest, where the mechanism stays over a range of "
@@ -169,7 +169,7 @@ def equilibrium(
     def force(values: PerPose) -> Float[np.ndarray, " poses"]:
         # all of one length, so that they share a compiled program
         padded = np.pad(values, (0, max(0, len(inputs) - len(values))), mode="edge")
-        found = drive_forces(posed(padded), masses, gravity=gravity, applied=applied)
+        found = drive_forces(posed(padded), masses, gravity=gravity, applied=given)
         return np.asarray(found.forces[name], float)[: len(values)]
 
     forces, rounding = force(inputs), float(jnp.finfo(float).eps)
@@ -185,7 +185,7 @@ def equilibrium(
     if _has_others(mechanism, len(drive)) and (len(values) or len(indifferent)):
         poses = posed(np.concatenate([values, inputs[indifferent].ravel()]))
         most = HELD * max(float(np.nanmax(np.abs(forces))), weight)
-        loads = _out_of_balance(reactions(poses, masses, gravity=gravity, applied=applied), most)
+        loads = _out_of_balance(reactions(poses, masses, gravity=gravity, applied=given), most)
     still = ~np.any([np.zeros(len(values), bool), *(load[: len(values)] != 0 for load in loads.values())], axis=0)
     return Equilibrium(
         name,

@@ -21,6 +21,7 @@ from jaxkin.effects.forces.acting import (
     Acting,
     ActingNumbers,
     acting_numbers,
+    all_applied,
     check,
     given_rates,
     loads_and_frictions,
@@ -186,13 +187,13 @@ def reactions(
     Works inside `jit`, `vmap` and `grad`. Poses that are not closed (`motion.closed`) are NaN. Raises ValueError as
     `jk.drive_forces`.
     """
-    acting = Acting(masses, gravity, applied, rates, accelerations)
+    acting = Acting(masses, gravity, all_applied(applied), rates, accelerations)
     check(motion, acting)
     mechanism = motion.mechanism
     drive, known = known_motion(motion)
     speeds = given_rates(motion, acting)
     linkage, numbers, result = mechanism.linkage, acting_numbers(acting), None
-    if frictions := loads_and_frictions(acting)[1]:
+    if frictions := loads_and_frictions(acting.applied)[1]:
         found = _moved(drive, known, dict(motion.inputs), speeds)
         moving, all_loads = acting_on(drive.unit, True, linkage, found, numbers)
         all_loads, result = with_friction(motion, drive, moving, all_loads, frictions)
