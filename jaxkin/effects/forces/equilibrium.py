@@ -18,11 +18,9 @@ from jaxkin.effects.forces.drive import drive_forces
 from jaxkin.effects.forces.given import Applied, rows_per_pose
 from jaxkin.effects.forces.masses import Masses
 from jaxkin.effects.forces.reactions import HELD, Reactions, reactions
-from jaxkin.effects.forces.screws import Scale
+from jaxkin.effects.forces.rounding import force_terms, weights_of_all
 from jaxkin.effects.forces.wrenches import units_of
 from jaxkin.effects.pose_plot import draw_lines, save_rows
-from jaxkin.geometry.movements import is_length
-from jaxkin.geometry.units import METRES
 from jaxkin.linkage.coordinates import coordinates
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
@@ -37,8 +35,8 @@ it is the unit of rounding."""
 MAX_NAMED = 4
 """Coordinates without a drive that a printed result names at most: one freedom shows in several."""
 NO_FORCE = 16
-"""Units of rounding of all weights, times the size for a torque, up to which a drive force counts as none. A four-bar
-in a horizontal plane that is drawn askew has forces of one or two."""
+"""Units of rounding of the terms of a drive force (`force_terms`) up to which it counts as none. A four-bar in a
+horizontal plane that is drawn askew has forces of one or two."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,25 +164,35 @@ def equilibrium(
     def posed(values: PerPose) -> Motion:
         return mechanism.sweep({key: values, **{each: np.full(len(values), *at) for each, at in held.items()}})
 
+    def of_one_length(values: PerPose) -> Motion:
+        # so that all share a compiled program
+        return posed(np.pad(values, (0, max(0, len(inputs) - len(values))), mode="edge"))
+
     def force(values: PerPose) -> Float[np.ndarray, " poses"]:
-        # all of one length, so that they share a compiled program
-        padded = np.pad(values, (0, max(0, len(inputs) - len(values))), mode="edge")
-        found = drive_forces(posed(padded), masses, gravity=gravity, applied=given)
+        found = drive_forces(of_one_length(values), masses, gravity=gravity, applied=given)
         return np.asarray(found.forces[name], float)[: len(values)]
 
+    def rounding_of(values: PerPose) -> PerPose:
+        terms = force_terms(of_one_length(values), name, masses, gravity, given)
+        return NO_FORCE * rounding * terms[: len(values)]
+
+    def vanishes(values: PerPose) -> Bool[np.ndarray, " poses"]:
+        return np.abs(force(values)) <= rounding_of(values)
+
     forces, rounding = force(inputs), float(jnp.finfo(float).eps)
-    weight = _weight(mechanism, name, masses, gravity)
-    least = NO_FORCE * rounding * weight
+    least = rounding_of(inputs)
     forces = np.where(np.abs(forces) <= least, 0.0, forces)
-    values, indifferent = _vanishing(force, inputs, forces, least, max(WITHIN, rounding))
+    values, indifferent = _vanishing(force, vanishes, inputs, forces, max(WITHIN, rounding))
     # of a central difference: the cube root of rounding
     step = rounding ** (1 / 3) * np.ptp(inputs)
     beside = force(np.concatenate([values - step, values + step])) if len(values) else np.zeros(0)
     growth = beside[len(values) :] - beside[: len(values)]
+    if len(values):  # a force that grows by no more than rounding may fall
+        growth = np.where(np.abs(growth) <= rounding_of(values), 0.0, growth)
     loads: dict[str, PerPose] = {}
     if _has_others(mechanism, len(drive)) and (len(values) or len(indifferent)):
         poses = posed(np.concatenate([values, inputs[indifferent].ravel()]))
-        most = HELD * max(float(np.nanmax(np.abs(forces))), weight)
+        most = HELD * max(float(np.nanmax(np.abs(forces))), weights_of_all(poses, name, masses, gravity))
         loads = _out_of_balance(reactions(poses, masses, gravity=gravity, applied=given), most)
     still = ~np.any([np.zeros(len(values), bool), *(load[: len(values)] != 0 for load in loads.values())], axis=0)
     return Equilibrium(
@@ -224,23 +232,27 @@ def _range_and_held(drive: Mapping[Any, Any]) -> tuple[str, PerPose, dict[str, P
 
 
 def _vanishing(
-    force: Callable[[PerPose], PerPose], inputs: PerPose, forces: PerPose, least: float, within: float
+    force: Callable[[PerPose], PerPose],
+    vanishes: Callable[[PerPose], Bool[np.ndarray, " poses"]],
+    inputs: PerPose,
+    forces: PerPose,
+    within: float,
 ) -> tuple[PerPose, Int[np.ndarray, "intervals 2"]]:
     """Find where a force vanishes along a range: in single displacements, rising, and throughout which intervals.
 
-    `forces` are those of the range, zero where they are at most `least`. Displacements are refined to `within` of the
-    range. Intervals are told by the numbers of their first and last pose.
+    `forces` are those of the range, zero where they are none but for rounding, as `vanishes` tells of any displacement.
+    Displacements are refined to `within` of the range. Intervals are told by the numbers of their first and last pose.
     """
     none = forces == 0.0
     between = none[:-1] & none[1:]  # two equilibria may be neighbours, with forces between them
     if between.any():
-        between[between] = np.abs(force(0.5 * (inputs[:-1] + inputs[1:])[between])) <= least
+        between[between] = vanishes(0.5 * (inputs[:-1] + inputs[1:])[between])
     at_zero = np.flatnonzero(none & ~np.append(between, False) & ~np.append(False, between))
     changing = np.flatnonzero(forces[:-1] * forces[1:] < 0)
     ends = inputs[changing], inputs[changing + 1], forces[changing], forces[changing + 1]
-    refined, vanishes = _refined(force, *ends, within * np.ptp(inputs))
+    refined, found = _refined(force, *ends, within * np.ptp(inputs))
     # runs of gaps between poses: the index behind the last gap is that of the last pose
-    return np.sort(np.concatenate([inputs[at_zero], refined[vanishes]])), runs(between)
+    return np.sort(np.concatenate([inputs[at_zero], refined[found]])), runs(between)
 
 
 def _has_others(mechanism: Mechanism, driven: int) -> bool:
@@ -257,16 +269,6 @@ def _out_of_balance(found: Reactions, most: float) -> dict[str, PerPose]:
         for k, full_name in enumerate(joint.full_names)
     }
     return {name: np.where(load > most, load, 0.0) for name, load in loads.items() if np.any(load > most)}
-
-
-def _weight(mechanism: Mechanism, name: str, masses: Masses | None, gravity: Any) -> float:
-    """Add up all weights, newtons; for an angle times their distances from the middle and its size, newton metres."""
-    if masses is None:
-        return 0.0
-    size, middle = Scale.of(mechanism.linkage)
-    arms = np.linalg.norm(np.asarray(masses.centre) - np.asarray(middle), axis=1) + float(size)
-    lever = 1.0 if is_length(name.rpartition(".")[2]) else arms * METRES[mechanism.unit]
-    return float(np.linalg.norm(np.asarray(gravity, float)) * np.sum(np.asarray(masses.mass) * lever))
 
 
 def _refined(

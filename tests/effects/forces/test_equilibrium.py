@@ -12,6 +12,17 @@ from reference.energies import FOURBAR_MASSES, fourbar
 from reference.mechanisms import Z, planar_fourbar
 from reference.planar import fourbar as fourbar_angles
 
+TURN = np.linspace(0, 2 * np.pi, 73)
+
+
+def askew(turn: np.ndarray) -> jk.Mechanism:
+    """The planar four-bar, turned in space."""
+    joints = [
+        jk.revolute(each.name, *each.parts, point=turn @ each.frames_1[0][:3, 3], axis=turn @ Z)
+        for each in planar_fourbar().all_joints
+    ]
+    return jk.Mechanism.build(fixed=["ground"], joints=joints, unit="mm")
+
 
 def pendulum() -> jk.Mechanism:
     hinge = jk.revolute("A", "base", "arm", point=(0, 0, 0), axis=Z)
@@ -100,7 +111,7 @@ def test_a_spring_against_a_weight(tmp_path):
 def test_a_fourbar_stands_where_its_potential_is_extreme():
     mechanism = fourbar()
     own = jk.masses(mechanism, given=FOURBAR_MASSES)
-    found = jk.equilibrium(mechanism, {"A": np.linspace(0, 2 * np.pi, 73)}, own, gravity=(0, -9.81, 0))
+    found = jk.equilibrium(mechanism, {"A": TURN}, own, gravity=(0, -9.81, 0))
 
     def slope(q):
         """Derivative of the height of all masses, by the turns of the three parts from the closed form."""
@@ -130,11 +141,7 @@ def test_a_fourbar_stands_where_its_potential_is_extreme():
 def test_a_linkage_in_a_horizontal_plane_is_indifferent(tilt, tmp_path):
     """Also where it is drawn askew, so that rounding decides of what sign its forces are."""
     turn = Rotation.from_rotvec([tilt, 0.3 * tilt, 0.0]).as_matrix()
-    joints = [
-        jk.revolute(each.name, *each.parts, point=turn @ each.frames_1[0][:3, 3], axis=turn @ Z)
-        for each in planar_fourbar().all_joints
-    ]
-    mechanism = jk.Mechanism.build(fixed=["ground"], joints=joints, unit="mm")
+    mechanism = askew(turn)
     given = {name: jk.Mass(own.mass, turn @ own.centre) for name, own in FOURBAR_MASSES.items()}
     own = jk.masses(mechanism, given=given)
     found = jk.equilibrium(mechanism, {"A": np.linspace(0, 1, 11)}, own, gravity=turn @ [0.0, 0.0, -9.81])
@@ -222,3 +229,58 @@ def test_poses_of_which_nothing_is_known_are_told():
     assert str(found) == (
         f"No equilibrium of D.phi from -3 to 3; at {unknown} of its 9 poses, which are not closed, nothing is known"
     )
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("tilt", [0.0, 1.0])
+def test_loads_across_the_plane_of_a_linkage_leave_it_indifferent(tilt):
+    """No force along its axes and no torque across them does any work, of whatever sign rounding is."""
+    turn = Rotation.from_rotvec([tilt, 0.3 * tilt, 0.0]).as_matrix()
+    mechanism = askew(turn)
+    across = [
+        jk.force("coupler", turn @ [60.0, 50.0, 0.0], turn @ [0.0, 0.0, 1000.0]),
+        jk.torque("coupler", turn @ [1000.0, 0.0, 0.0]),
+    ]
+    for load in across:
+        found = jk.equilibrium(mechanism, {"A": TURN}, applied=load)
+        assert len(found.values) == 0 and found.indifferent.tolist() == [[0.0, TURN[-1]]]
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("offset", [0.0, 1e4])
+def test_an_arm_that_a_spring_balances_is_indifferent(offset):
+    """A spring of no length from a point above the hinge: k a b = m g l balances the arm at every angle."""
+    hinge = jk.revolute("A", "base", "arm", point=(offset, offset, 0), axis=Z)
+    mechanism = jk.Mechanism.build(fixed=["base"], joints=[hinge], unit="mm")
+    own = jk.masses(mechanism, given={"arm": jk.Mass(2.0, (offset + 200.0, offset, 0.0))})
+    spring = jk.spring(
+        "base", (offset, offset + 300.0, 0), "arm", (offset + 100.0, offset, 0), 2.0 * 9.81 * 0.2 / (0.3 * 0.1)
+    )
+    found = jk.equilibrium(mechanism, {"A": TURN}, own, gravity=(0, -9.81, 0), applied=spring)
+    assert len(found.values) == 0 and found.indifferent.tolist() == [[0.0, TURN[-1]]]
+
+
+@pytest.mark.long
+def test_what_a_drive_does_not_move_hides_no_equilibrium():
+    """A pendulum of a gram beside a thousand tonnes on a hinge that is held, a hundred metres away."""
+    hinges = [
+        jk.revolute("A", "base", "bob", point=(0, 0, 0), axis=Z),
+        jk.revolute("E", "base", "block", point=(1e5, 0, 0), axis=Z),
+    ]
+    mechanism = jk.Mechanism.build(fixed=["base"], joints=hinges, unit="mm")
+    own = jk.masses(mechanism, given={"bob": jk.Mass(1e-3, (1.0, 0, 0)), "block": jk.Mass(1e6, (1e5, 0, 0))})
+    found = jk.equilibrium(mechanism, {"A": TURN, "E": 0.0}, own, gravity=(0, -9.81, 0))
+    np.testing.assert_allclose(found.values, [np.pi / 2, 3 * np.pi / 2], atol=1e-9)
+    assert found.stable.tolist() == [False, True] and len(found.indifferent) == 0
+
+
+def test_where_rounding_hides_how_a_force_grows_it_is_not_known_whether_it_is_stable():
+    """An arm that stands on a spring with k = m g l: the force grows by the third power of the angle."""
+    own = jk.masses(pendulum(), given={"arm": jk.Mass(2.0, (0.0, 0.2, 0.0))})
+    spring = jk.joint_spring("A", 2.0 * 9.81 * 0.2)
+    found = jk.equilibrium(
+        pendulum(), {"A": np.linspace(-1, 1, 22)}, own, gravity=(0, -9.81, 0), applied=(each for each in [spring])
+    )
+    # the third root of rounding
+    np.testing.assert_allclose(found.values, [0.0], atol=1e-4)
+    assert not found.stable[0] and not found.unstable[0]
