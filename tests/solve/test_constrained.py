@@ -85,3 +85,18 @@ def test_minima_and_their_derivatives(rows, columns):
     one, other = (direct(slope, equations + step * change, right) for step in (1e-5, -1e-5))
     difference = (one - other) / 2e-5
     np.testing.assert_allclose(derivative, difference, atol=1e-5 * np.abs(difference).max())
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("outer", [jax.jacfwd, jax.jacrev])
+def test_second_derivatives_by_the_right_sides_backwards(outer):
+    """z is linear in (a, b) = s (a_0, b_0): |z|^2 = s^2 |z_0|^2 has the second derivative 2 |z_0|^2."""
+    rng = np.random.default_rng(0)
+    factor = rng.normal(size=(4, 4, POSES))
+    matrix = jnp.asarray(np.einsum("ikp,jkp->ijp", factor, factor) + np.eye(4)[..., None])
+    equations, slope, right = (jnp.asarray(rng.normal(size=shape)) for shape in ((2, 4, POSES), (4, POSES), (2, POSES)))
+
+    def square(scale):
+        return jnp.sum(minimise_constrained(matrix, scale * slope, equations, scale * right) ** 2)
+
+    np.testing.assert_allclose(outer(jax.jacrev(square))(1.3), 2 * square(1.0), rtol=1e-12)

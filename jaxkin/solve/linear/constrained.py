@@ -21,8 +21,9 @@ from jaxkin.solve.linear.gram import Matrix, Vector, row_products
 from jaxkin.solve.linear.inverse_root import inverse_root
 from jaxkin.solve.linear.orthonormal_rows import orthonormal_rows
 
-Unknowns = tuple[Float[Array, "n poses"], Float[Array, "equations poses"]]
-"""z and y, or the right-hand sides a and b of their equations."""
+Unknowns = Float[Array, "n+equations poses"]
+"""z and y, or the right-hand sides a and b of their equations: in one array, as JAX cannot take the way back through a
+linear solve of which one of several results is not used."""
 
 
 def minimise_constrained(
@@ -32,6 +33,7 @@ def minimise_constrained(
     right: Float[Array, "equations poses"],
 ) -> Float[Array, "n poses"]:
     """Find z (n, poses) from M (n, n, poses), a (n, poses), E (equations, n, poses) and b (equations, poses)."""
+    count = len(slope)
     root = inverse_root(lax.stop_gradient(matrix))
     whitened = row_products(lax.stop_gradient(equations), root)
     found = orthonormal_rows(whitened)
@@ -45,17 +47,18 @@ def minimise_constrained(
         return least - inside - column_sums(found.made_by, row_sums(found.rows, across))
 
     def system(given: Unknowns) -> Unknowns:
-        z, y = given
-        return row_sums(matrix, z) + column_sums(equations, y), row_sums(equations, z) - vanishing(y)
+        z, y = given[:count], given[count:]
+        return jnp.concatenate([row_sums(matrix, z) + column_sums(equations, y), row_sums(equations, z) - vanishing(y)])
 
     def solve(_: object, given: Unknowns) -> Unknowns:
-        a, b = given
+        a, b = given[:count], given[count:]
         free = row_sums(root, a)
         missing = row_sums(found.made_by, row_sums(whitened, free) - b)
         z = column_sums(root, free - column_sums(found.rows, missing))
-        return z, column_sums(found.made_by, missing) - column_sums(found.vanishing, row_sums(found.vanishing, b))
+        y = column_sums(found.made_by, missing) - column_sums(found.vanishing, row_sums(found.vanishing, b))
+        return jnp.concatenate([z, y])
 
-    return lax.custom_linear_solve(system, (slope, right), solve, symmetric=True)[0]
+    return lax.custom_linear_solve(system, jnp.concatenate([slope, right]), solve, symmetric=True)[:count]
 
 
 def row_sums(matrix: Matrix, vector: Float[Array, "columns poses"]) -> Vector:
