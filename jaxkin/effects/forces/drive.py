@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -125,7 +125,7 @@ def drive_forces(
     masses: Masses | None = None,
     *,
     gravity: Any = STANDARD_GRAVITY,
-    applied: Sequence[Applied] | Applied = (),
+    applied: Iterable[Applied] | Applied = (),
     rates: Mapping[str, Any] | None = None,
     accelerations: Mapping[str, Any] | None = None,
 ) -> DriveForces:
@@ -154,8 +154,7 @@ def drive_forces(
         others = numbers._replace(masses=None)
         found = changes(drive, known, dict(motion.inputs), None) if len(drive.loop_groups) > 1 else None
         return DriveForces(motion, *_at_rest(drive, linkage, known, dict(motion.inputs), others, of_parts, found))
-    frictions = loads_and_frictions(acting.applied)[1]
-    if not frictions:
+    if not (frictions := loads_and_frictions(acting.applied)[1]):
 
         def of_poses(
             known: KnownMotion, inputs: Mapping[str, Any], speeds: tuple[Inputs, Inputs], acting: ActingNumbers

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -127,7 +127,7 @@ def equilibrium(
     masses: Masses | None = None,
     *,
     gravity: Any = STANDARD_GRAVITY,
-    applied: Sequence[Applied] | Applied = (),
+    applied: Iterable[Applied] | Applied = (),
 ) -> Equilibrium:
     """Find the displacements of one driven coordinate at which its force vanishes at rest.
 

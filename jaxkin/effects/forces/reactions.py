@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 from pathlib import Path
@@ -174,7 +174,7 @@ def reactions(
     masses: Masses | None = None,
     *,
     gravity: Any = STANDARD_GRAVITY,
-    applied: Sequence[Applied] | Applied = (),
+    applied: Iterable[Applied] | Applied = (),
     rates: Mapping[str, Any] | None = None,
     accelerations: Mapping[str, Any] | None = None,
 ) -> Reactions:

@@ -47,7 +47,8 @@ def force_terms(
     the middle and from the origin of the world: their rounding is in the force. Zero in poses that are not closed.
     """
     linkage, unit = motion.mechanism.linkage, motion.mechanism.unit
-    size, middle = (np.asarray(each, float) for each in Scale.of(linkage))
+    scale = Scale.of(linkage)
+    size, middle = float(scale.size), np.asarray(scale.middle, float)
     rates = velocities(motion, {each: float(each == name) for each in motion.inputs})
     going = _going(motion, [np.abs(np.asarray(rows, float)) for rows in rates.displacements], size, middle)
     metre, total = METRES[unit], np.zeros(len(motion))
@@ -113,4 +114,4 @@ def _of_load(
             metre * np.abs(np.asarray(load.stiffness, float)) * (sum(reach) + np.abs(np.asarray(load.length, float)))
         )
     speeds = [going[part].slides + going[part].turns * own for part, own in zip(parts, reach, strict=True)]
-    return metre * force * sum(speeds)
+    return metre * force * np.sum(speeds, axis=0)
