@@ -56,8 +56,8 @@ def joint_on_frames(
 
     `kind` is "revolute", "prismatic", "cylindrical", "planar", "spherical", "universal", "screw" or "fixed". `pitch` is
     the advance of a screw per turn, unit of the mechanism; its limits count whole turns, told by its advance. Raises
-    ValueError for other kinds, for what is no rigid pose, for axes of a universal joint that are not perpendicular, and
-    for the pitch of what is no screw.
+    ValueError for other kinds, for what is no rigid pose, for axes of a universal joint that are not perpendicular, for
+    a screw without pitch, and for the pitch of what is no screw.
     """
     places = by_name(places or {}, f"joint {name!r}: places", "{'arm': np.eye(4)}")
     if not isinstance(kind, str) or kind not in MOVEMENT_OF:
@@ -78,12 +78,14 @@ def joint_on_frames(
 
 
 def _pitch(name: str, kind: str, given: Any) -> float:
-    """Check the pitch of a joint: zero unless it is a screw; ValueError for others, and for traced ones."""
+    """Check the pitch of a joint: that of a screw is not zero, all others are; ValueError, also for traced ones."""
     if traced(given):
         raise ValueError(f"joint {name!r}: the pitch is traced; make the joint outside of jit, vmap and grad")
     found = float(one_number(given, f"joint {name!r}: pitch", "a finite number, the advance per turn"))
     if found and kind != JointKind.SCREW:
         raise ValueError(f"joint {name!r}: only a screw has a pitch, got pitch={given!r} of kind {kind!r}")
+    if not found and kind == JointKind.SCREW:
+        raise ValueError(f"joint {name!r}: a screw needs its advance per turn, as pitch=2.0; without, it is a revolute")
     return found
 
 

@@ -25,7 +25,7 @@ from jaxkin.joints.file_noise import noise_of
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.regularise import Noise, regularise
 from jaxkin.joints.screws import displacements, inverses
-from jaxkin.topology.bodies import bodies
+from jaxkin.topology.bodies import body_of_parts
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
@@ -82,8 +82,7 @@ class FaceSetting:
     """The faces of a mechanism, its rigid bodies, and the length below which faces count as touching."""
 
     def __init__(self, mechanism: Mechanism) -> None:
-        ties = [joint.parts for joint in mechanism.all_joints if not joint.freedoms]
-        self.body = bodies(mechanism.parts, mechanism.fixed, ties)
+        self.body = body_of_parts(mechanism.bodies)
         """For each part the first part of its rigid body."""
         self.solids = mechanism.solids
         self.faces: dict[tuple[str, str], Face] = {}

@@ -105,16 +105,10 @@ def _skipped(linkage: Linkage, driven: Collection[JointCoordinate], found: Drive
             )
             texts[-1] += f" and is carried along by {element.upper}" if element.upper in rows else " and rests"
     for element in structure.elements:
-        if element.joint is None:
-            continue
         if element.joint in given:
             texts.append(f"{element.joint} is in no loop: its displacement is given, and moves {element.upper}")
-    coupled = {structure.joints[joint] for joint in solved}
-    still = [
-        element.joint
-        for element in structure.elements
-        if element.joint and element.joint not in given and element.joint not in coupled
-    ]
+    given |= {structure.joints[joint] for joint in solved}
+    still = [element.joint for element in structure.elements if element.joint and element.joint not in given]
     if still:
         texts.append(f"{listed(still)}: in no loop and not driven, at rest")
     return texts

@@ -40,7 +40,8 @@ class Projection:
     """Closed poses nearest to given coordinates. A pytree; every array has the poses as its first axis."""
 
     motion: Motion
-    """The poses. Its inputs are the coordinates that were held; the motors, where none were."""
+    """The poses. Its inputs are the coordinates that were held; where none were, those of the motors, or of the first
+    joint of a mechanism without motors."""
     distance: Float[Array, " poses"]
     """Root of the sum of squares, over all coordinates of joints in loops, of how far they were moved, with their
     weights: radians, and lengths over the characteristic length of the loops."""

@@ -124,7 +124,7 @@ def test_limits_of_a_screw_count_the_turns_that_its_advance_tells(pitch):
     np.testing.assert_allclose(made.limits[0], np.array([0, 20 * np.pi]) - 2 * np.pi * turns, atol=1e-13)
 
 
-@pytest.mark.parametrize(("kind", "pitch"), [("screw", np.inf), ("revolute", 1.0)])
+@pytest.mark.parametrize(("kind", "pitch"), [("screw", np.inf), ("screw", 0.0), ("revolute", 1.0)])
 def test_a_pitch_is_the_number_of_a_screw(kind, pitch):
     with pytest.raises(ValueError, match=r"joint 'S'.*pitch"):
         jk.joint_on_frames("S", "a", "b", kind=kind, frame1=np.eye(4), frame2=np.eye(4), pitch=pitch)
