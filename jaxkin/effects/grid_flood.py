@@ -14,7 +14,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Float, Int
 
-from jaxkin.effects.grid_steps import SHORT_STEPS, GridSteps, NodeInputs, StepResults, neighbours
+from jaxkin.effects.grid_steps import GridSteps, NodeInputs, StepResults, neighbours
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.trig import TURN
 from jaxkin.mechanism.drive_plan import DrivenLoopGroup
@@ -44,15 +44,13 @@ def flood(
 ) -> Flooded:
     """Find the poses of all nodes of a grid, the last input fastest; inputs are radians and lengths of the mechanism.
 
-    It begins at the node that is nearest to the assembled pose, which is reached in a straight line.
+    It begins at those nodes around the assembled pose that straight lines lead to.
     """
     if not loop_groups:  # nothing is to be closed
         count = inputs.shape[1]
         return Flooded((), np.full(count, Status.CLOSED.value, np.int32), np.zeros(count))
     front = _Front(loop_groups, options, inputs, shape, max_residual)
-    start = int(np.argmin(np.linalg.norm(inputs, axis=0)))
-    front.known[start] = True
-    if front.begin(start):
+    if front.begin(nodes_around(inputs)):
         front.spread(_Wanted.FOLLOWED)
         front.followed = front.known.copy()
     front.spread(_Wanted.LEAST)
@@ -62,6 +60,20 @@ def flood(
     stationary, followed = jnp.asarray(front.stationary), jnp.asarray(front.followed)
     status = np.asarray(classify(jnp.asarray(front.residual), stationary, followed, max_residual))
     return Flooded(tuple(State(*map(jnp.asarray, state)) for state in front.states), status, front.residual)
+
+
+def nodes_around(inputs: NodeInputs) -> Int[np.ndarray, " around"]:
+    """Find the corners of the cell of a grid that the assembled pose, 0, is in, the nearest one first.
+
+    One of them would not do: near a singular pose, or a limit of a joint, the nearest one may be beyond it. Of an input
+    that is 0 at no value of the grid or between two, the value next to 0 counts.
+    """
+    corner = np.ones(inputs.shape[1], bool)
+    for row in inputs:
+        below, above = row[row <= 0].max(initial=-np.inf), row[row >= 0].min(initial=np.inf)
+        corner &= (row == below) | (row == above)
+    (found,) = np.nonzero(corner)
+    return found[np.argsort(np.linalg.norm(inputs[:, found], axis=0), kind="stable")]
 
 
 class _Wanted(Enum):
@@ -88,16 +100,22 @@ class _Front:
         self.followed = np.zeros(count, bool)
         """To which nodes the branch of the assembled pose leads."""
 
-    def begin(self, start: int) -> bool:
-        """Go from the assembled pose to the first node, in steps of the grid, or, far away, longer ones."""
+    def begin(self, around: Int[np.ndarray, " around"]) -> bool:
+        """Go from the assembled pose to the nodes around it, in steps of the grid, or, far away, longer ones.
+
+        Those to which the branch leads are known then, or else the first one, and False is returned.
+        """
         spacing = np.ptp(self.inputs, axis=1) / max(max(self.shape) - 1, 1)
-        far = np.abs(self.inputs[:, start])
+        ends = self.inputs[:, around]
+        far = np.abs(ends).max(axis=1)
         steps = max((a / step for a, step in zip(far, spacing, strict=True) if step > 0), default=0.0)
         count = int(np.ceil(np.clip(steps, 1, MAX_STEPS_TO_GRID)))
-        rest = [[part[..., [start]] for part in state] for state in self.states]
-        found = self.steps.walk(rest, 0.0 * self.inputs[:, [start]], self.inputs[:, [start]], SHORT_STEPS * count)
-        self._keep(np.array([start]), found, np.array([0]))
-        return bool(found.taken[0])
+        rest = [[part[..., around] for part in state] for state in self.states]
+        found = self.steps.follow(rest, 0.0 * ends, ends, count)
+        (taken,) = np.nonzero(np.asarray(found.taken))
+        chosen = taken if len(taken) else np.array([0])
+        self._keep(around[chosen], found, chosen)
+        return len(taken) > 0
 
     def spread(self, wanted: _Wanted) -> None:
         """Step from known nodes to their unknown neighbours, and on from these, until no more poses are found."""

@@ -36,7 +36,7 @@ NodeInputs = Float[np.ndarray, "driven nodes"]
 BATCH = 128
 """Steps that are taken together: a front on a grid of some thousand nodes has about as many."""
 SHORT_STEPS = 8
-"""Number of steps to a neighbour where one step is not taken."""
+"""Number of steps in place of one that is not taken."""
 SHORTEST_STEPS = 64
 """Number of steps where these are not taken either, although the loops close: a neighbour beside a limit."""
 SLACK = 1e-12
@@ -85,14 +85,17 @@ class GridSteps:
         self.systems = tuple(loop_group.system for loop_group in loop_groups)
         self.joints = tuple(loop_group.joints for loop_group in loop_groups)
 
-    def follow(self, states: Sequence[Sequence[np.ndarray]], begin: NodeInputs, end: NodeInputs) -> StepResults:
-        """Step from poses to others, once more in shorter steps where the first is not taken."""
-        found = self.walk(states, begin, end, 1)
-        for count, most in ((SHORT_STEPS, np.inf), (SHORTEST_STEPS, self.max_residual)):
+    def follow(
+        self, states: Sequence[Sequence[np.ndarray]], begin: NodeInputs, end: NodeInputs, count: int = 1
+    ) -> StepResults:
+        """Go from poses to others in `count` steps each, once more in shorter steps where one is not taken."""
+        found = self.walk(states, begin, end, count)
+        for pieces, most in ((SHORT_STEPS, np.inf), (SHORTEST_STEPS, self.max_residual)):
             (failed,) = np.nonzero(~np.asarray(found.taken) & (np.asarray(found.residual) <= most))
             if len(failed):
                 chosen = [[part[..., failed] for part in state] for state in states]
-                again = self.walk(chosen, begin[:, failed], end[:, failed], count, to_end=count < SHORTEST_STEPS)
+                to_end = pieces < SHORTEST_STEPS
+                again = self.walk(chosen, begin[:, failed], end[:, failed], pieces * count, to_end)
                 found = _merged(found, again, failed)
         return found
 

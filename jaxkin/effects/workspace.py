@@ -17,7 +17,7 @@ from jaxtyping import Array, Bool, Float, Int
 from jaxkin._arguments import by_name, check_known, check_mechanism, numbers, several
 from jaxkin._names import listed, nearest
 from jaxkin.effects.determined_drive import check_determined
-from jaxkin.effects.grid_flood import Flooded, flood
+from jaxkin.effects.grid_flood import Flooded, flood, nodes_around
 from jaxkin.effects.pose_plot import save_rows
 from jaxkin.effects.workspace_plot import WorkspaceMap, draw_workspace
 from jaxkin.linkage.coordinates import coordinates
@@ -91,6 +91,8 @@ class Workspace:
                 f"  the assembled pose itself is beyond its limits: {outside}; assemble the mechanism within, as "
                 "mechanism.at(motion, index) does, and map it from there"
             )
+        elif not self.reached.any():
+            lines.append("  the assembled pose leads to no node beside it: give values nearer to 0, where it is")
         if self.reached.any():
             unit = self.motion.mechanism.unit
             for name, values in zip("xyz", self.points[self.reached].T, strict=True):
@@ -140,7 +142,7 @@ def workspace(
     """Map a mechanism over a grid of two inputs: which poses it reaches, where a point of a part is, how near singular.
 
     `ranges` maps two coordinates to rising arrays of displacements from the assembled pose, radians or lengths. The map
-    is filled from the node nearest to the assembled pose, from neighbour to neighbour, past no singular pose. Nodes are
+    is filled from the nodes around the assembled pose, from neighbour to neighbour, past no singular pose. Nodes are
     CLOSED where a path over the grid leads there, on the branch of the assembled pose and within the limits of joints;
     LIMITED where a path leads there, but a joint is beyond its limits; JUMPED where the loops close, but no path was
     found, or none within the limits; UNREACHABLE where no neighbour leads to a closed pose. A passage narrower than the
@@ -200,12 +202,13 @@ def _within_limits(
     """
     from scipy.ndimage import label
 
-    start = np.unravel_index(np.argmin(np.linalg.norm(nodes, axis=0)), status.shape)
-    if Status.LIMITED.value not in status or status[start] != Status.CLOSED.value:
-        return status
     closed = status == Status.CLOSED.value
+    around = nodes_around(nodes)
+    starts = around[closed.ravel()[around]]
+    if Status.LIMITED.value not in status or not len(starts):
+        return status
     pieces = np.asarray(label(closed)[0])  # pyright: ignore[reportIndexIssue]  # along the edges of the grid, as the map is filled
-    return np.where(closed & (pieces != pieces[start]), Status.JUMPED.value, status)
+    return np.where(closed & ~np.isin(pieces, pieces.ravel()[starts]), Status.JUMPED.value, status)
 
 
 def _grid(ranges: Mapping[str, Sequence[float] | np.ndarray]) -> dict[str, Float[np.ndarray, " values"]]:

@@ -134,6 +134,30 @@ def test_a_pose_that_is_assembled_beyond_a_limit_is_told():
     assert found.reached.all() and "beyond" not in str(found)
 
 
+def test_a_map_begins_at_whichever_node_beside_the_assembled_pose_it_can_get_to():
+    """A five-bar that is stretched but for 4e-4: the node nearest to 0 is beyond that, and the three around it are not.
+
+    The rods close where the elbows are less than both of them apart; of these nodes none is cut off.
+    """
+    places = {"left": (0, 0, 0), "left elbow": (0, 1, 0), "tip": (1, 1.02, 0), "right elbow": (2, 1, 0)}
+    parts = [("ground", "one"), ("one", "two"), ("two", "three"), ("three", "four"), ("four", "ground")]
+    joints = [
+        jk.revolute(name, *pair, point=point, axis=Z)
+        for (name, point), pair in zip({**places, "right": (2, 0, 0)}.items(), parts, strict=True)
+    ]
+    first, second = np.array([-0.9, -0.6, -0.3, 0.1, 0.4, 0.7]), np.array([-0.7, -0.4, -0.1, 0.3, 0.6, 0.9])
+    mechanism = jk.Mechanism.build(fixed=["ground"], joints=joints)
+    # the right crank is part 1 of its joint: it turns against the displacement
+    found = jk.workspace(mechanism, {"left": first, "right": -second[::-1]}, "two", (1, 1.02, 0))
+    u, v = np.meshgrid(first, second[::-1], indexing="ij")
+    apart = np.hypot(2 - np.sin(v) + np.sin(u), np.cos(u) - np.cos(v))
+    np.testing.assert_array_equal(found.reached, apart < 2 * np.hypot(1, 0.02))
+    assert not found.reached[3, 3] and found.reached.sum() == 21
+    assert "leads to no node" not in str(found)
+    away = jk.workspace(mechanism, {"left": first[3:], "right": -second[2::-1]}, "two", (1, 1.02, 0))
+    assert not away.reached.any() and "the assembled pose leads to no node beside it" in str(away)
+
+
 @pytest.mark.long
 def test_what_limits_part_from_the_assembled_pose_is_not_reached():
     """The limits of an elbow that is not driven: of the nodes within them, only those that a path within leads to."""
