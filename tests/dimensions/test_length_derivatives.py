@@ -292,9 +292,8 @@ def test_of_a_part_with_many_joints_in_single_precision(make):
     now, found = np.array(lengths_now(mechanism.linkage, bars)), []
     for exact in (True, False):
         with jax.enable_x64(exact):
-            values = jnp.array(1.1 * now)
-            slope = jax.jit(jax.grad(lambda values: jnp.sum(weights * moved(values))))(values)
-            found.append((jax.jit(moved)(values), slope))
+            slopes = jax.grad(lambda values: jnp.sum(weights * moved(values)))
+            found.append((jax.jit(moved)(1.1 * jnp.array(now)), jax.jit(slopes)(1.1 * jnp.array(now))))
     (places, slopes), (single, single_slopes) = found
     assert single.dtype == np.float32
     np.testing.assert_allclose(single, places, atol=1e-6 * np.abs(points).max())

@@ -30,8 +30,7 @@ PerPose = Float[np.ndarray, " poses"]
 MAX_REFINEMENTS = 60
 """Steps that refine a sign change, at most: halving alone gains a digit in three."""
 WITHIN = 1e-12
-"""Width of a sign change, or length of a step, over the range of the drive, at which it is refined enough. In float32
-it is the unit of rounding."""
+"""Width of a sign change, or length of a step, over the range, that is small enough; in float32 a unit of rounding."""
 MAX_NAMED = 4
 """Coordinates without a drive that a printed result names at most: one freedom shows in several."""
 NO_FORCE = 16
