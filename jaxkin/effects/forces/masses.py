@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import jax
@@ -11,13 +11,14 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin._arguments import by_name, check_mechanism, one_number
+from jaxkin._arguments import by_name, check_mechanism, check_motion, one_number
 from jaxkin._names import closest, match_parts, nearest
 from jaxkin._traced import traced
 from jaxkin.geometry.inertial import of_density_one
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.units import METRES
 from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.mechanism.motion import Motion
 
 Number = float | int | np.ndarray | Array
 
@@ -79,6 +80,19 @@ class Masses:
     def total(self) -> Float[Array, ""]:
         """Sum of all masses, kilograms."""
         return jnp.sum(self.mass)
+
+    def at(self, motion: Motion, index: int) -> Masses:
+        """Move the masses with their parts to pose `index` of a motion: those of `motion.mechanism.at(motion, index)`.
+
+        Raises ValueError for the motion of a mechanism with other parts.
+        """
+        check_motion(motion, "masses in another pose")
+        if motion.mechanism.parts != self.parts:
+            raise ValueError("the motion is that of a mechanism with other parts than the masses have")
+        moved = jnp.stack([motion.transforms[part][index] for part in self.parts])
+        turned = moved[:, :3, :3]
+        centre = jnp.einsum("pij,pj->pi", turned, self.centre) + moved[:, :3, 3]
+        return replace(self, centre=centre, inertia=turned @ self.inertia @ turned.swapaxes(1, 2))
 
     def __str__(self) -> str:
         width = max(map(len, self.parts), default=0)

@@ -113,3 +113,19 @@ def test_a_mass_that_is_no_number_is_told_with_its_part(mass):
 def test_an_inertia_that_is_no_number_is_told_with_its_part():
     with pytest.raises(ValueError, match="the inertia of 'arm' must be one number, or a matrix"):
         jk.masses(pendulum(box()), given={"arm": jk.Mass(1.0, (0, 0, 0), "heavy")})
+
+
+def test_masses_move_with_their_parts_to_another_assembled_pose():
+    """The forces there are those of the pose from which it was assembled."""
+    mechanism = planar_fourbar()
+    own = jk.Mass(2.0, centre=(60.0, 50.0, 7.0), inertia=np.diag([1e-3, 2e-3, 4e-3]))
+    masses = jk.masses(mechanism, given={"crank": own, "coupler": own, "rocker": 0})
+    motion = mechanism.sweep({"A": np.linspace(0.0, 2.0, 5)})
+    moved, there = mechanism.at(motion, 3), masses.at(motion, 3)
+    asked = {"rates": {"A": 3.0}, "gravity": (0.0, -9.81, 0.0)}
+    before = jk.drive_forces(motion, masses, **asked).forces["A.phi"][3]
+    after = jk.drive_forces(moved.sweep({"A": [0.0]}), there, **asked).forces["A.phi"][0]
+    assert abs(before) > 0.1
+    np.testing.assert_allclose(after, before, rtol=1e-11)  # of a pose that is aligned anew
+    with pytest.raises(ValueError, match="a mechanism with other parts than the masses have"):
+        masses.at(pendulum().sweep({"A": [0.1]}), 0)
