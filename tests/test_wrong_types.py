@@ -267,6 +267,14 @@ def test_words_of_an_assembly(assembly, option, wrong):
 
 
 @pytest.mark.parametrize(
+    ("tolerance", "wrong"), [("length", (0.0,)), ("angle", (NOTHING, 0.0)), ("fit", (NOTHING,))], ids=str
+)
+def test_tolerances_of_contacts(assembly, tolerance, wrong):
+    for given in (*wrong, TEXT, OBJECT, IMAGINARY, -0.1, [1, 2], True, *NOT_FINITE):
+        refused(lambda x: assembly.contacts(**{tolerance: x}), given)
+
+
+@pytest.mark.parametrize(
     ("options", "said"),
     [
         ({"fixed": None}, "fixed must be a list of part names, got None"),

@@ -21,7 +21,7 @@ from jaxkin.assembly.to_mechanism import MechanismOptions, check_options, make_m
 from jaxkin.assembly.with_inferences import with_inferences
 from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.contacts.detect import find_contacts, is_about
-from jaxkin.contacts.tolerance import ContactTolerance
+from jaxkin.contacts.tolerance import ContactTolerance, check_tolerances
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.units import METRES, unit_name
 from jaxkin.joints.joint import Joint, check_joints
@@ -65,8 +65,10 @@ class Assembly:
         `length` (in the unit of the assembly; by default 1e-5 of its diagonal, or what its file is rounded by), `angle`
         (radians; 1e-4) and `fit` (clearance over radius; 0.02) say what still counts as touching: see
         `jaxkin.contacts.detect.find_contacts`.
-        `progress(done, total)` is called after each pair of parts whose boxes meet.
+        `progress(done, total)` is called after each pair of parts whose boxes meet. Raises ValueError for a `length` or
+        an `angle` that is not positive, and for a negative `fit`.
         """
+        check_tolerances(length, angle, fit)
         tolerances = (length, angle, fit)
         if tolerances not in self._found:
             self._found[tolerances] = find_contacts(self.parts, *tolerances, progress)

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from jaxkin._arguments import one_number, positive_number
 from jaxkin.contacts.touch import Touch
 from jaxkin.geometry.part import Part, size
 from jaxkin.geometry.surfaces import Surface
@@ -70,6 +71,15 @@ class ContactTolerance:
             if abs(touch.clearance) > allowed:
                 return False
         return touch.tilt <= NEAR_TILT and abs(touch.gap) <= allowed
+
+
+def check_tolerances(length: object, angle: object, fit: object) -> None:
+    """Raise ValueError for tolerances of contacts that are no numbers or negative; `length` may be None."""
+    if length is not None:
+        positive_number(length, "the length of contacts")
+    positive_number(angle, "the angle of contacts")
+    if one_number(fit, "the fit of contacts") < 0:
+        raise ValueError(f"the fit of contacts must be a number, zero or more, got {fit!r}")
 
 
 def reach(touch: Touch, extent: float) -> float:

@@ -2,7 +2,8 @@
 
 A target is a free joint between the fixed parts and the part, all or some of whose coordinates are driven. So the
 loops that it closes, the mobility, the statuses and the derivatives are those of any drive, and the actuators of the
-mechanism come out as coordinates (inverse kinematics). In a planar mechanism the joint is a planar pair.
+mechanism come out as coordinates (inverse kinematics). Where the loops of the part move in a plane, the joint is a
+planar pair.
 """
 
 from __future__ import annotations

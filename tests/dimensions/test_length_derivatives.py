@@ -4,7 +4,6 @@ The closed forms are numpy code; with `jax.numpy` in its place they are differen
 largest derivative, as asked for; rounding leaves about 1e-13.
 """
 
-from functools import partial
 from unittest.mock import patch
 
 import jax
@@ -13,7 +12,7 @@ import numpy as np
 import pytest
 
 from jaxkin.dimensions.lengths import lengths_now, rearranged
-from jaxkin.joints.pairs import revolute, screw, spherical
+from jaxkin.joints.pairs import revolute, screw
 from jaxkin.mechanism.mechanism import Mechanism
 from reference import planar, spatial
 from reference.mechanisms import (
@@ -272,29 +271,3 @@ def test_a_program_holds_the_operations_of_lengths_of_one_kind_once():
     assert four < 2 * one
     function, values = changed_and_measured(4)
     np.testing.assert_allclose(jax.jit(function)(values), values, rtol=1e-14)
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("make", [spherical, partial(revolute, axis=(0.0, 0.0, 1.0))], ids=["balls", "hinges"])
-def test_of_a_part_with_many_joints_in_single_precision(make):
-    """Their places are those of float64, and so are the derivatives: to some units of rounding, 1.2e-7."""
-    points = np.random.default_rng(1).normal(5.0, 30.0, (5, 3))
-    mechanism = Mechanism.build(
-        fixed=["p"], joints=[make(f"J{k}", "p", f"q{k}", point=point) for k, point in enumerate(points)], align=0
-    )
-    bars = [("p", "J0", "J1"), ("p", "J1", "J2")]
-    weights = np.random.default_rng(2).normal(size=(5, 3))
-
-    def moved(values):
-        changed = mechanism.with_lengths(dict(zip(bars, values, strict=True)))
-        return jnp.stack([joint.frames_1[0, :3, 3] for joint in changed.all_joints])
-
-    now, found = np.array(lengths_now(mechanism.linkage, bars)), []
-    for exact in (True, False):
-        with jax.enable_x64(exact):
-            slopes = jax.grad(lambda values: jnp.sum(weights * moved(values)))
-            found.append((jax.jit(moved)(1.1 * jnp.array(now)), jax.jit(slopes)(1.1 * jnp.array(now))))
-    (places, slopes), (single, single_slopes) = found
-    assert single.dtype == np.float32
-    np.testing.assert_allclose(single, places, atol=1e-6 * np.abs(points).max())
-    np.testing.assert_allclose(single_slopes, slopes, rtol=1e-4)
