@@ -16,7 +16,7 @@ from jaxtyping import Array, Float
 from jaxkin._arguments import check_known, check_motion
 from jaxkin._files import save_figure
 from jaxkin._names import listed, nearest
-from jaxkin.effects.curve_range import CurvePoints, CurveRange, Evaluate, range_of
+from jaxkin.effects.curve_range import DOUBLE, SINGLE, CurvePoints, CurveRange, Evaluate, range_of
 from jaxkin.effects.cusps_crossings import Crossing, Cusp, crossings_of, cusps_of
 from jaxkin.effects.pose_plot import save_rows
 from jaxkin.effects.rates import accelerations, velocities
@@ -24,12 +24,9 @@ from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.pose import Vector
 from jaxkin.mechanism.motion import Motion, as_point
 
-FLAT = 1e-9
-"""Extent of a curve across its plane, over that along it, up to which it counts as plane."""
-
-RESTS = 1e-10
-"""Extent of a curve, over the largest coordinate of its points and the joints, up to which the point rests: a million
-times the rounding of a pose, and no curve whose cusps or crossings could be told from it."""
+UPRIGHT = 1e-9
+"""What the cosine between the normal of a curve and an axis of the world lacks of 1, up to which its axes are those of
+the world: rounding of poses in either precision leaves less."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +78,7 @@ class CouplerCurve:
         from matplotlib.figure import Figure
 
         path = Path(path)
-        axes_of = self.plane if self.plane is not None else _axes(self.points)[0]
+        axes_of = self.plane if self.plane is not None else _axes(self.points, 0.0)[0]
         figure = Figure(figsize=(6.4, 5.2), layout="constrained")
         axes = figure.add_subplot()
         known = np.pad(np.isfinite(self.points).all(axis=1), 1)
@@ -138,17 +135,18 @@ def coupler_curve(motion: Motion, part: str, point: Sequence[float | int] | np.n
         raise ValueError(f"a curve needs four closed poses, and this motion has {closed.sum()} of {len(closed)}")
     points = np.where(closed[:, None], np.asarray(motion.points(part, at), float), np.nan)
     evaluate = _evaluation(motion, drive, part, at)
+    precision = DOUBLE if np.finfo(motion.residual.dtype).bits == 64 else SINGLE
     extent, unit = float(np.ptp(points[closed], axis=0).max()), motion.mechanism.unit
-    if extent <= RESTS * _largest_coordinate(motion, points[closed]):
+    if extent <= precision.rests * _largest_coordinate(motion, points[closed]):
         return CouplerCurve(part, drive, inputs, points, (), (), None, unit, rests=True)
-    axes, flat = _axes(points)
+    axes, flat = _axes(points, precision.flat)
     # a motion may pass inputs several times, and rest at them; the curve is a function of the input
     own, first = np.unique(inputs[closed], return_index=True)
     passed = points[closed][first]
     if is_length(drive.rpartition(".")[2]):
-        curve = CurveRange(own, passed, False)
+        curve = CurveRange(own, passed, False, precision)
     else:
-        curve = range_of(evaluate, own, passed, extent)
+        curve = range_of(evaluate, own, passed, extent, precision)
     cusps = cusps_of(evaluate, curve)
     crossings = crossings_of(evaluate, axes, curve, extent, cusps) if flat else ()
     return CouplerCurve(part, drive, inputs, points, cusps, crossings, axes if flat else None, unit)
@@ -175,14 +173,14 @@ def _largest_coordinate(motion: Motion, points: Float[np.ndarray, "poses 3"]) ->
     return float(np.abs(np.concatenate([points, *joints])).max())
 
 
-def _axes(points: Float[np.ndarray, "poses 3"]) -> tuple[Float[np.ndarray, "2 3"], bool]:
-    """Find two axes along which points extend most, and whether they extend along these only.
+def _axes(points: Float[np.ndarray, "poses 3"], thin: float) -> tuple[Float[np.ndarray, "2 3"], bool]:
+    """Find two axes along which points extend most, and whether they extend across these by the share `thin` at most.
 
     Axes of the world are kept where the points lie in a plane of two of them, so that pictures stand upright.
     """
     known = points[np.isfinite(points).all(axis=1)]
     _, sizes, directions = np.linalg.svd(known - known.mean(axis=0), full_matrices=False)
-    flat = bool(sizes[2] <= FLAT * sizes[0])
-    if flat and (across := np.abs(directions[2])).max() > 1 - FLAT:
+    flat = bool(sizes[2] <= thin * sizes[0])
+    if flat and (across := np.abs(directions[2])).max() > 1 - UPRIGHT:
         return np.delete(np.eye(3), int(across.argmax()), axis=0), flat
     return directions[:2], flat

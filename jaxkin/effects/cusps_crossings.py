@@ -12,20 +12,14 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.effects.curve_range import MEETS, CurveRange, Evaluate
+from jaxkin.effects.curve_range import CurveRange, Evaluate
 from jaxkin.geometry.pose import Vector
 
 NEWTON_STEPS = 12
 """Newton steps from the steps of the motion: from a few degrees, five reach rounding."""
-STANDS_STILL = 1e-9
-"""Speed of the point, over its largest one, at which it counts as standing still: a hundred times the rounding of a
-pose over the steps of the drive, and far below what a curve without a cusp shows."""
 ALONG_STEPS = 2.0
 """Steps of the motion that a crossing may be refined away from where its polygons cross: curves beside their chords
 cross in the next step at most."""
-TOUCHES = 1e-12
-"""What the cosine between two tangents lacks of 1, up to which the curve touches itself, or passes a pose again, and
-does not cross: an angle of 1e-6, as exact as tangents at refined places are."""
 BESIDE_CUSP = 1.0
 """Steps from a cusp within which both inputs of a crossing are only its two sides, which are nearer to each other than
 can be told: as far as a motion tells crossings apart, and fifty times what is left of two steps after `NEWTON_STEPS`,
@@ -71,7 +65,7 @@ def cusps_of(evaluate: Evaluate, curve: CurveRange) -> tuple[Cusp, ...]:
         at = np.clip(at - change, low, high)
     at = curve.within(at)
     found = evaluate(at)
-    still = found.closed & (np.linalg.norm(found.slope, axis=1) <= STANDS_STILL * np.sqrt(speed.max()))
+    still = found.closed & (np.linalg.norm(found.slope, axis=1) <= curve.precision.stands_still * np.sqrt(speed.max()))
     cusps: list[Cusp] = []
     for u, point in zip(at[still], found.point[still], strict=True):
         if not any(curve.are_one(u, other.input) for other in cusps):
@@ -102,12 +96,12 @@ def crossings_of(
     here = evaluate(at.ravel())
     place, slope = (each.reshape(2, -1, 3) for each in (here.point, here.slope))
     good = here.closed.reshape(2, -1).all(axis=0)
-    good &= np.linalg.norm(place[1] - place[0], axis=1) <= MEETS * extent
+    good &= np.linalg.norm(place[1] - place[0], axis=1) <= curve.precision.meets * extent
     good &= ~curve.are_one(at[0], at[1])
     # where the curve is drawn twice, two inputs are one pose
     lengths = np.linalg.norm(slope, axis=2)
     cosine = np.abs(np.sum(slope[0] * slope[1], axis=1)) / np.where(lengths.prod(axis=0) > 0, lengths.prod(axis=0), 1.0)
-    good &= cosine < 1 - TOUCHES
+    good &= cosine < 1 - curve.precision.touches
     for cusp in cusps:
         good &= ~curve.are_one(at, cusp.input).any(axis=0)
         good &= ~(curve.steps_between(at, cusp.input) <= BESIDE_CUSP).all(axis=0)

@@ -9,6 +9,7 @@ import jax
 import numpy as np
 import pytest
 from scipy.optimize import fsolve
+from scipy.spatial.transform import Rotation
 
 import jaxkin as jk
 from jaxkin.effects.curve_range import CurvePoints, range_of
@@ -186,6 +187,42 @@ def test_a_curve_that_is_drawn_twice_has_what_one_turn_has(motion):
     pole = np.asarray(jk.screw_axes(jk.velocities(motion, {"A": 1.0}), "coupler").moving)[40]
     once, again = (jk.coupler_curve(each, "coupler", pole) for each in (motion, twice))
     assert len(again.cusps) == len(once.cusps) == 1 and len(again.crossings) == len(once.crossings)
+
+
+@pytest.mark.long
+@pytest.mark.filterwarnings("ignore:jaxkin computes in float32")
+def test_single_precision_has_the_same_cusps_and_crossings(motion):
+    """Also in a plane that is tilted, and for curves of two turns; a point at rest is so but for rounding."""
+    turned = 1.2345
+    cusp, _ = at_the_pole(turned)
+    eight = (*coupler_point(START, 50.0, -60.0)[0], 0.0)
+    crossings = sorted(each.inputs for each in jk.coupler_curve(motion, "coupler", eight).crossings)
+    assert crossings
+    tilt = Rotation.from_rotvec([0.3, -0.5, 0.2]).as_matrix()
+    places = {joint.name: np.asarray(joint.frames_1)[0, :3, 3] for joint in motion.mechanism.all_joints}
+    with jax.enable_x64(False):
+        tilted = jk.Mechanism.build(
+            fixed=["ground"],
+            joints=[
+                jk.revolute(name, *motion.mechanism.joints[name].parts, point=tilt @ place, axis=tilt[:, 2])
+                for name, place in places.items()
+            ],
+        )
+        once, twice = (tilted.sweep({"A": np.linspace(0.0, turns * 2 * np.pi, turns * 180 + 1)}) for turns in (1, 2))
+        assert once.residual.dtype == np.float32
+        for swept in (once, twice):
+            found = jk.coupler_curve(swept, "coupler", tilt @ cusp)
+            assert found.plane is not None
+            # inputs of some radians are rounded to 5e-7, and poses to as much of 100, over slopes of some 50
+            np.testing.assert_allclose([each.input for each in found.cusps], [turned], atol=1e-5)
+            found = jk.coupler_curve(swept, "coupler", tilt @ eight)
+            np.testing.assert_allclose(sorted(each.inputs for each in found.crossings), crossings, atol=1e-5)
+            assert found.cusps == ()
+        beside = jk.coupler_curve(once, "coupler", tilt @ np.add(cusp, (0.5, 0.0, 0.0)))
+        assert beside.cusps == ()
+        for part, point in (("crank", (0.0, 0.0, 0.0)), ("ground", (3.0, 4.0, 5.0))):
+            assert jk.coupler_curve(once, part, point).rests
+        assert not jk.coupler_curve(once, "crank", (0.1, 0.0, 0.0)).rests
 
 
 @pytest.mark.long
