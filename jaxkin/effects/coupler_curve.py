@@ -114,8 +114,8 @@ def coupler_curve(motion: Motion, part: str, point: Sequence[float | int] | np.n
     full turns of the drive, cusps and crossings are those of the first time, and its ends are one pose. Poses between
     those of the motion are swept with its options.
 
-    Raises ValueError for motions with several drives, with fewer than four closed poses, in float32, whose rounding
-    looks like cusps and hides others, for a part that is not there, and inside `jit`, `vmap` and `grad`.
+    Raises ValueError for motions with several drives, with fewer than four closed poses, for a part that is not there,
+    and inside `jit`, `vmap` and `grad`.
     """
     check_motion(motion, "coupler curves")
     check_known("cusps and crossings", "jk.coupler_curve", motion, point)
@@ -125,11 +125,6 @@ def coupler_curve(motion: Motion, part: str, point: Sequence[float | int] | np.n
         raise ValueError(f"there is no part {part!r}{nearest(str(part), motion.mechanism.parts)}")
     at = np.asarray(as_point(point), float)
     ((drive, values),) = motion.inputs.items()
-    if motion.residual.dtype != np.float64:
-        raise ValueError(
-            f"cusps and crossings are told in float64, and this motion is in {motion.residual.dtype}: write "
-            'jax.config.update("jax_enable_x64", True) before the sweep, or take the curve alone, motion.points'
-        )
     inputs, closed = np.asarray(values, float), np.asarray(motion.closed)
     if closed.sum() < 4:
         raise ValueError(f"a curve needs four closed poses, and this motion has {closed.sum()} of {len(closed)}")

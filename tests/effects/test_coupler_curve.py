@@ -267,10 +267,3 @@ def test_places_have_their_unit(motion):
     mechanism = replace(motion.mechanism, unit="mm")
     found = jk.coupler_curve(mechanism.sweep({"A": TURN[:5]}), "crank", (0.0, 0.0, 0.0))
     assert str(found).endswith(") mm")
-
-
-@pytest.mark.filterwarnings("ignore:jaxkin computes in float32")
-def test_float32_is_refused(motion):
-    """The fixed pivot of the crank had nine cusps there, and a true cusp was none."""
-    with jax.enable_x64(False), pytest.raises(ValueError, match=r"in float64, and this motion is in float32.*x64"):
-        jk.coupler_curve(motion.mechanism.sweep({"A": TURN[:5]}), "crank", (0.0, 0.0, 0.0))
