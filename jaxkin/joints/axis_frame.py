@@ -11,6 +11,9 @@ import numpy as np
 from jaxkin._traced import traced
 from jaxkin.geometry.pose import frame
 
+PERPENDICULAR = 1e-6
+"""Largest cosine between directions that a joint needs perpendicular: numbers of six digits."""
+
 Triple = Sequence[float | int] | np.ndarray | jax.Array
 
 

@@ -18,7 +18,7 @@ from jaxkin._arguments import one_number, several
 from jaxkin._traced import traced
 from jaxkin.contacts.states import find_state
 from jaxkin.geometry.pose import is_rigid
-from jaxkin.joints.axis_frame import Triple, axis_frame
+from jaxkin.joints.axis_frame import PERPENDICULAR, Triple, axis_frame
 from jaxkin.joints.curve_joints import cam, curve_on_curve, point_on_curve
 from jaxkin.joints.joint import Joint, joint
 from jaxkin.joints.kinds import JointKind
@@ -115,7 +115,7 @@ def universal(
     pose = axis_frame(name, point, axis1, "axis1")
     x = axis_frame(name, point, axis2, "axis2")[:3, 2]
     y = pose[:3, 2]
-    if not traced(point, axis1, axis2) and abs(float(x @ y)) > 1e-6:
+    if not traced(point, axis1, axis2) and abs(float(x @ y)) > PERPENDICULAR:
         raise ValueError(
             f"joint {name!r}: axis1 and axis2 of a universal joint must be perpendicular, the cosine between them is "
             f"{float(x @ y):.3g}; use two revolute joints and a part between them for a skew cross"
@@ -213,7 +213,7 @@ def pin_in_slot(
     known = not traced(point, axis, direction, centre)
     if direction is not None:
         along, z = axis_frame(name, point, direction, "direction")[:3, 2], pin[:3, 2]
-        if known and abs(float(along @ z)) > 1e-6:
+        if known and abs(float(along @ z)) > PERPENDICULAR:
             raise ValueError(
                 f"joint {name!r}: the direction of a slot must be perpendicular to the axis of its pin, the cosine "
                 f"between them is {float(along @ z):.3g}; use a prismatic and a revolute joint and a part between them "

@@ -9,11 +9,8 @@ from jaxtyping import Float
 
 from jaxkin._traced import traced
 from jaxkin.geometry.pose import Transform, frame
-from jaxkin.joints.axis_frame import Triple, axis_frame
+from jaxkin.joints.axis_frame import PERPENDICULAR, Triple, axis_frame
 from jaxkin.joints.profiles import PlacedProfile
-
-_PERPENDICULAR = 1e-6
-"""Largest cosine between the axis of the plane and a direction that is to lie in the plane, as of other joints."""
 
 
 class ProfilePoint(NamedTuple):
@@ -49,7 +46,7 @@ class ProfilePlane(NamedTuple):
     def direction(self, name: str, label: str, given: Triple) -> Float[np.ndarray, "2"]:
         """Find the unit direction (x, y) of a direction in the plane; ValueError where it is not in the plane."""
         along = np.asarray(axis_frame(name, (0.0, 0.0, 0.0), given, label))[:3, 2]
-        if abs(float(along @ self.pose[:3, 2])) > _PERPENDICULAR:
+        if abs(float(along @ self.pose[:3, 2])) > PERPENDICULAR:
             raise ValueError(
                 f"joint {name!r}: {label} must be perpendicular to the axis of the profile, the cosine between them "
                 f"is {float(along @ self.pose[:3, 2]):.3g}"

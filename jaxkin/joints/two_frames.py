@@ -8,10 +8,8 @@ import numpy as np
 
 from jaxkin.geometry.pose import Transform, inverse, rotation, unit
 from jaxkin.geometry.trig import TURN
+from jaxkin.joints.axis_frame import PERPENDICULAR
 from jaxkin.joints.kinds import JointKind
-
-PERPENDICULAR = 1e-6
-"""Cosine between the two axes of a universal joint up to which they are perpendicular: numbers of six digits."""
 
 Z = np.array([0.0, 0.0, 1.0])
 """The axis of joint frames."""

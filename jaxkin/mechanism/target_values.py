@@ -41,7 +41,7 @@ def driven_coordinates(joint: Joint, target: Target, values: Any, size: float | 
     where JAX traces them, such poses are NaN. `size` is that of the mechanism.
     """
     given: Any = target_values(target, values)
-    near = _rounding((jnp if traced(values) else np).asarray(values).dtype)
+    near = rounding(values)
     good = _are_rigid(target, given, near)
     xp: Any = jnp if traced(given, joint) else np
     # poses that are not good stand at rest until the end: NaN would spoil the derivatives of all poses
@@ -78,8 +78,9 @@ def target_values(target: Target, values: Any) -> Any:
     return given
 
 
-def _rounding(dtype: Any) -> float:
-    """Tell by how much entries of poses in numbers of a type may be off: `OFF_PLANE`, more in single precision."""
+def rounding(values: Any) -> float:
+    """Tell by how much entries of given poses may be off: `OFF_PLANE`, more where they are in single precision."""
+    dtype = (jnp if traced(values) else np).asarray(values).dtype
     return max(OFF_PLANE, ROUNDINGS * float(np.finfo(dtype).eps)) if np.issubdtype(dtype, np.floating) else OFF_PLANE
 
 

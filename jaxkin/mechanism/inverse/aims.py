@@ -13,7 +13,7 @@ from jaxkin._arguments import exact_numbers
 from jaxkin._names import nearest
 from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.coordinates import coordinate
-from jaxkin.mechanism.target_values import check_rigid, target_values
+from jaxkin.mechanism.target_values import check_rigid, rounding, target_values
 from jaxkin.mechanism.targets import Target, middle_of_joints
 
 if TYPE_CHECKING:
@@ -85,7 +85,7 @@ def _aim(mechanism: Mechanism, key: str | Target, values: Any, weight: Weight) -
     if key.kind == "point":
         return PartAim(key.part, np.array(key.at), given, None, both)
     turns = given[:, :3, :3]
-    check_rigid(key, given)
+    check_rigid(key, given, rounding(values))
     at = np.asarray(middle_of_joints(mechanism.linkage, key.part))
     places = turns @ at + given[:, :3, 3] if key.kind == "pose" else None
     return PartAim(key.part, at, places, turns, both)
