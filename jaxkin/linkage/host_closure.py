@@ -129,7 +129,7 @@ class ClosedLoops:
         looped = {joint for loop in loop_group.loops for joint, _ in loop}
         self.hanging = {
             row_of[part]: (row_of[parent], joint, sign)
-            for part, parent, joint, sign in structure.tree
+            for part, parent, joint, sign in (structure.tree if looped < joints.keys() else ())
             if joint in joints and joint not in looped
         }
         """Row of parts that hangs by a coupled joint in no loop -> the row that it hangs on, the joint, and +1 if that
