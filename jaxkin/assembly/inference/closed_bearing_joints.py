@@ -15,6 +15,10 @@ from jaxkin.assembly.inference.stopped_joint import StoppedJoint
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
+MAX_SEAT = 0.05
+"""Clearance of a bearing in its seat, over the radius, at most, where the same part holds what is in it more closely:
+printed seats have up to 0.03, room about a roller 0.08."""
+
 
 def in_closed_bearings(known: Known, found: Sequence[Ring]) -> list[CommonAxis]:
     """Find the pins in the holes of bearings: they turn there, and are no body with the ring."""
@@ -28,11 +32,25 @@ def closed_bearing_bodies(known: Known, found: Sequence[Ring]) -> list[Inference
     for each in found:
         seats = [pair for pair in known.axes if pair.one is each.outside and not pair.virtual]
         seats = [pair for pair in seats if pair.clearance <= MAX_LOOSE * pair.other.radius]
+        seats = [pair for pair in seats if not _is_room(known, pair)]
         if seats:
             seat = max(seats, key=engaged)
             text = f"{each.part.name!r} has the size of a ball bearing, and sits in {seat.other.part!r}"
             result.append(Inference(known.in_order(seat.parts), _evidence(each, text)))
     return result
+
+
+def _is_room(known: Known, seat: CommonAxis) -> bool:
+    """Tell whether what a bearing is in with much play is room for it, and no seat: the same part holds a pin in the
+    bearing more closely, as an arm holds the axle of its roller. With both rings in one part it would not turn."""
+    if seat.clearance <= MAX_SEAT * seat.other.radius:
+        return False
+    within = {pair.one.part for pair in known.axes if pair.other.part == seat.one.part and not pair.virtual}
+    return any(
+        pair.one.part in within and pair.other.part == seat.other.part and pair.clearance < seat.clearance
+        for pair in known.axes
+        if not pair.virtual and pair.one.on_axis_of(seat.one)
+    )
 
 
 def closed_bearing_joints(known: Known, found: Sequence[Ring]) -> list[StoppedJoint]:

@@ -107,3 +107,14 @@ def test_a_bearing_by_itself_over_a_hole_is_a_roller(seed, outside, rolls):
     mechanism = anywhere(drawn, seed, scaled_at_random=False).mechanism(fixed=["base"])
     found = [joint for joint in mechanism.all_joints if "roller" in joint.parts and joint.freedoms]
     assert [joint.kind for joint in found] == (["revolute"] if rolls else [])
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(("room", "turns"), [(1.0, True), (0.1, False)])
+def test_a_bearing_with_room_about_it_is_not_seated_beside_its_axle(room, turns, seed):
+    """An arm holds the axle of its roller more closely than the roller, which has a millimetre of room in it."""
+    cheeks = [ring(BORE, 20.0, low, low + 8) for low in (-10.0, 9.0)]
+    arm = part("arm", *cheeks, ring(OUTSIDE + room, 20.0, -2, 9), block((20, -5, -10), (60, 5, 17)))
+    drawn = assembly(arm, part("axle", pin(BORE, -10, 17)), bearing("roller", 0.0))
+    body = owners(anywhere(drawn, seed, scaled_at_random=False).mechanism(fixed=["arm"]))
+    assert (body["roller"] != body["arm"]) == turns
