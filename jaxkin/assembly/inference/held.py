@@ -25,6 +25,8 @@ LOOSE, MIN_LOOSE = 1.7, 0.05
 """The same of a ring with play, and the least clearance of such, over the radius: nuts have up to 1.6, and no play."""
 PRESSED = 0.02
 """Clearance of a ring that is pressed on a pin, over the radius, at most: a spacer has more."""
+MIN_PRESSED = 0.55
+"""Length of such a ring on the pin, over the radius, at least: a large washer of ISO 7093 has 0.5, and holds no pin."""
 LIFTED = 0.15
 """Distance from a face, over the radius of a pin, up to which a bolt of a pattern clamps there: plates are drawn with
 gaps of a tenth of a millimetre, and guide pins end a millimetre before the floor of their holes."""
@@ -194,6 +196,8 @@ def _keepers(
     looser = min((fits[owner] for owner in keeping if owner != tightest), default=0.0) - fits[tightest]
     pressed = tightest not in keeping and looser > SAME_FIT * stack.axis.radius
     pressed = pressed and fits[tightest] <= PRESSED * stack.axis.radius
+    length = sum(high - low for low, high, _ in reach[tightest])
+    pressed = pressed and length >= MIN_PRESSED * stack.axis.radius
     return [tightest] if pressed and not all(part in known.sleeves for *_, part in reach[tightest]) else keeping
 
 

@@ -97,3 +97,15 @@ def test_a_slide_on_its_lead_screw_is_no_body_with_it(seed):
     assert body["slide"] not in (body["screw"], body["base"])
     kinds = {frozenset(body[part] for part in joint.parts): joint.kind for joint in moving(mechanism)}
     assert kinds[frozenset((body["slide"], body["base"]))] == "prismatic"
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("thick", [1.5, 6.0])
+def test_a_screw_is_held_by_the_plate_in_which_it_has_play_and_not_by_its_washer(seed, thick):
+    """The washer fits more tightly, and lies a little above the plate; a ring as thick as a spacer is pressed on."""
+    base = part("base", ring(4.25, 20.0, -6, 0), block((20, -80, -30), (80, 80, 0)), PIVOT)
+    washer = part("washer", ring(4.0, 12.0, 0.05, 0.05 + thick))
+    screw = part("screw", pin(3.99, -20, 0.1 + thick), pin(6.5, 0.1 + thick, 8 + thick))
+    nut = part("nut", ring(3.99, 6.5, -13, -6.05))
+    body = owners(anywhere(assembly(base, washer, screw, nut, LEVER), seed).mechanism(fixed=["base"]))
+    assert (body["screw"] == body["base"]) == (thick < 2)
