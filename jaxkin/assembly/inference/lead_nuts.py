@@ -105,9 +105,8 @@ def _turns(known: Known, screw: Bore, nut: Bore, bearings: set[str]) -> bool:
     """Tell whether a rod has a collar of its own beside a nut, or is in a bearing."""
     own = [bore for bore in known.bores_on(screw.part, screw) if not bore.hole and bore.radius > WIDER * screw.radius]
     collar = any(shared_length(bore, nut) <= 0 for bore in own)
-    return collar or any(
-        each.one.part == screw.part and each.other.part in bearings | known.closed for each in known.axes
-    )
+    seated = {each.one.part for each in known.axes if not each.virtual} & known.closed  # others roll on it
+    return collar or any(each.one.part == screw.part and each.other.part in bearings | seated for each in known.axes)
 
 
 def _guide(known: Known, carriage: str, screw: Bore) -> str | None:

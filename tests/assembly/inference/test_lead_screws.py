@@ -78,3 +78,17 @@ def test_bolts_that_are_tight_in_two_plates_on_a_guide_rod_are_no_lead_screws(ho
         len({owners(mechanism)[each] for each in ("plate", "other plate", "bolt 0", "bolt 1", "nut 0", "nut 1")}) == 1
     )
     assert not any("lead screw" in note for note in mechanism.notes)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(("seated", "told"), [(False, False), (True, True)])
+def test_a_rod_on_which_a_bearing_is_a_roller_is_no_lead_screw(seated, told, seed):
+    """A threaded rod in a flanged nut of a plate that a rod guides; a bearing in a seat lets it turn."""
+    frame, _, carriage, nut, *_ = axis_with_a_flanged_nut(4.12, 0)
+    seat = [ring(11.0, 14.0, 20, 27)] if seated else []
+    faces = [*ring(4.05, 14.0, 0, 10), *block((-30, -30, -40), (80, -14, -30)), *block((-30, -30, -30), (-14, -14, 10))]
+    frame = part("frame", faces, pin(4.0, -30, 220, (50.0, 0.0)), *seat)
+    screw, roller = part("screw", pin(4.0, 1, 200)), part("roller", ring(4.0, 11.0, 20, 27))
+    drawn = anywhere(assembly(frame, screw, carriage, nut, roller), seed, scaled_at_random=False)
+    mechanism = drawn.mechanism(fixed=["frame"])
+    assert any("lead screw" in note for note in mechanism.history) == told
