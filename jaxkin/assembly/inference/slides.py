@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import product
 
 import numpy as np
 from jaxtyping import Float
@@ -165,10 +166,26 @@ def _dovetail(one: Part, others: Sequence[Part]) -> tuple[Vector, float] | None:
             across = np.column_stack([first, np.cross(axis, first)])
             along = [each for each in looking if abs(each[0] @ axis) < ACROSS]
             room = _room([(normal @ across, gap) for normal, gap, _ in along])
-            width = _room([(normal @ across, place - normal @ middle) for normal, _, place in along])
+            places = [(normal @ across, place - normal @ middle) for normal, _, place in along]
+            width = _room(places) if room is not None else None
+            if room is not None and width is None:  # other faces of the part lie beside its tail
+                near = [place for (_, gap, _), place in zip(along, places, strict=True) if gap <= room.max()]
+                width = _within_flanks(first @ across, second @ across, near)
             if room is not None and width is not None and np.all(room <= MAX_SIDE_PLAY * width):
                 return axis, float(room.max())
     return None
+
+
+def _within_flanks(
+    first: Float[np.ndarray, "2"],
+    second: Float[np.ndarray, "2"],
+    places: Sequence[tuple[Float[np.ndarray, "2"], float]],
+) -> Float[np.ndarray, "2"] | None:
+    """Measure the largest triangle that faces with two normals make with a third face, as the flanks of a dovetail do
+    with its top, along two directions; None where no face closes one."""
+    flanks = [[each for each in places if np.linalg.norm(each[0] - normal) < ACROSS] for normal in (first, second)]
+    triangles = (_room(corner) for corner in product(*flanks, places))
+    return max((each for each in triangles if each is not None), key=lambda width: float(width.max()), default=None)
 
 
 def _room(faces: Sequence[tuple[Float[np.ndarray, "2"], float]]) -> Float[np.ndarray, "2"] | None:

@@ -177,15 +177,27 @@ def test_a_plate_on_the_floor_of_a_dovetail_slides_along_it(seed, play):
     assert any("flanks of a dovetail" in text for text in told) == (play < 1)
 
 
-def flank(half, side, out=True):
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_dovetail_with_play_guides_what_has_other_faces_beside_its_tail(seed):
+    """A jaw on the floor of the dovetail, which stands beside it on both sides farther out than its flanks."""
+    base = part(
+        "base", block((-30, -60, -10), (30, 60, 0)), flank(12.2, 1), flank(12.2, -1), block((30, 8, -10), (36, 60, 0))
+    )
+    tail = [block((-3, -20, 0.1), (3, 20, 9)), flank(12, 1, out=False, low=0.1), flank(12, -1, out=False, low=0.1)]
+    jaw = part("jaw", *tail, block((36.2, -20, -10), (44, 20, 20)), block((-44, -20, 14), (44, 20, 20)))
+    _, mechanism = of(seed, base, jaw, LEVER)
+    assert kind_of(mechanism, "base", "jaw") == "prismatic"
+
+
+def flank(half, side, out=True, low=0.0):
     """A flank of a dovetail along y, inclined by 45 degrees, `half` from the middle at the floor."""
     length, top = (60, 8) if out else (20, 8)
     corners = np.array(
         [
-            (side * half, -length, 0.0),
-            (side * half, length, 0.0),
-            (side * (half - top), length, top),
-            (side * (half - top), -length, top),
+            (side * half, -length, low),
+            (side * half, length, low),
+            (side * (half - top), length, low + top),
+            (side * (half - top), -length, low + top),
         ]
     )
     normal = np.array([side, 0.0, 1.0]) / np.sqrt(2) * (-1 if out else 1)
