@@ -63,6 +63,28 @@ def test_short_dowels_place_a_part_and_long_pins_guide_it(seed, length, count):
     assert [str(joint.kind) for joint in moving(mechanism)] == ["prismatic"] * (count - 1)
 
 
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("pegs", [True, False])
+def test_pegs_that_are_not_round_place_a_wheel_on_its_hub(seed, pegs):
+    """Square pegs with play in square holes round a short boss; without them the wheel turns on it."""
+    sides = [((x, y), (x / 12, y / 12)) for x, y in ((12, 0), (0, 12), (-12, 0), (0, -12))]
+    hub = [ring(5.0, 20.0, -15, 0), pin(5.0, -15, 4), block((-4, -40, -20), (4, 40, -15))]
+    wheel = [ring(5.4, 9.0, 0, 5), ring(15.2, 24.0, 0, 5)]
+    for (x, y), _ in sides if pegs else []:
+        hub.append(block((x - 2, y - 2, 0), (x + 2, y + 2, 4)))
+        for a, b in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+            u, v = x + 2.7 * a, y + 2.7 * b
+            wheel.append(
+                block(
+                    (u - 0.5 - 1.7 * abs(b), v - 0.5 - 1.7 * abs(a), 0),
+                    (u + 0.5 + 1.7 * abs(b), v + 0.5 + 1.7 * abs(a), 5),
+                )
+            )
+    stand = part("stand", ring(20.1, 26.0, -14, -4), block((26, -5, -14), (60, 5, -4)))
+    body = owners(anywhere(assembly(stand, part("hub", *hub), part("wheel", *wheel)), seed).mechanism(fixed=["stand"]))
+    assert (body["wheel"] == body["hub"]) == pegs and body["hub"] != body["stand"]
+
+
 def nut(low, high, radius=4.0, at=(0.0, 0.0)):
     """A hexagonal nut with its hole."""
     angles = np.radians(60 * np.arange(6))
