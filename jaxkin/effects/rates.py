@@ -191,7 +191,7 @@ def jerks(
 
 def _rates(motion: Motion, *given: Inputs) -> Rates:
     """Compute the rates of all joints, of as many orders as rates of the inputs are given."""
-    return Rates(motion, given[-1], _joint_rates(*known_motion(motion), (dict(motion.inputs), *given)))
+    return Rates(motion, given[-1], _joint_rates(*known_motion(motion), (motion.inputs, *given)))
 
 
 @partial(whole_program, static=(0,))

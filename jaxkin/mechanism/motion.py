@@ -61,10 +61,6 @@ class Motion:
     """Whether idle parts are where sweeps leave them: rods between balls without spin, and at rest what could leave the
     plane of its loops. False for poses found otherwise. Static data to JAX."""
 
-    def __post_init__(self) -> None:
-        if type(self.inputs) is dict:
-            object.__setattr__(self, "inputs", Named("driven coordinate", self.inputs.items()))
-
     def __len__(self) -> int:
         return self.status.shape[0]
 

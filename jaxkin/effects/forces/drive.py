@@ -152,8 +152,8 @@ def drive_forces(
     if speeds is None:  # without friction, which `check` refuses at rest
         of_parts = None if numbers.masses is None else weights_along_tree(linkage, numbers.masses)
         others = numbers._replace(masses=None)
-        found = changes(drive, known, dict(motion.inputs), None) if len(drive.loop_groups) > 1 else None
-        return DriveForces(motion, *_at_rest(drive, linkage, known, dict(motion.inputs), others, of_parts, found))
+        found = changes(drive, known, motion.inputs, None) if len(drive.loop_groups) > 1 else None
+        return DriveForces(motion, *_at_rest(drive, linkage, known, motion.inputs, others, of_parts, found))
     if not (frictions := loads_and_frictions(acting.applied)[1]):
 
         def of_poses(
@@ -162,8 +162,8 @@ def drive_forces(
             found = changes(drive, known, inputs, speeds)
             return _in_motion(drive, linkage, known.status, found, speeds[0], acting)
 
-        return DriveForces(motion, *on_cores(of_poses, known, dict(motion.inputs), speeds, numbers))
-    found = changes(drive, known, dict(motion.inputs), speeds)
+        return DriveForces(motion, *on_cores(of_poses, known, motion.inputs, speeds, numbers))
+    found = changes(drive, known, motion.inputs, speeds)
     moving, all_loads = acting_on(drive.unit, True, linkage, found, numbers)
     all_loads, result = with_friction(motion, drive, moving, all_loads, frictions)
     forces, powers = _forces(drive, linkage, known.status, moving, all_loads, speeds[0])

@@ -194,7 +194,7 @@ def reactions(
     speeds = given_rates(motion, acting)
     linkage, numbers, result = mechanism.linkage, acting_numbers(acting), None
     if frictions := loads_and_frictions(acting.applied)[1]:
-        found = _moved(drive, known, dict(motion.inputs), speeds)
+        found = _moved(drive, known, motion.inputs, speeds)
         moving, all_loads = acting_on(drive.unit, True, linkage, found, numbers)
         all_loads, result = with_friction(motion, drive, moving, all_loads, frictions)
         rows = _balanced(drive, linkage, known.status, moving, all_loads)
@@ -208,7 +208,7 @@ def reactions(
             found = _moved(drive, known, inputs, speeds)
             return _without_friction(drive, linkage, known.status, found, acting)
 
-        rows = on_cores(of_poses, known, dict(motion.inputs), speeds, numbers)
+        rows = on_cores(of_poses, known, motion.inputs, speeds, numbers)
 
     def named(of_joints: Sequence[Array]) -> Named[Array]:
         return Named("joint", zip(mechanism.joints, of_joints, strict=True))
