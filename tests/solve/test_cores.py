@@ -93,11 +93,13 @@ def test_how_many_shards():
     assert [shards(element.system, poses) for poses in (8000, 2**15)] == [1, 2]
 
 
-def test_short_ranges_of_many_joints_are_shared_by_cores():
+def test_ranges_of_many_joints_are_shared_by_cores():
     """The loops of a hexapod have thirty joints; a single input that neither rises nor falls stays in one shard."""
     legs = tuple(f"leg {number}" for number in range(6))
     several, single = (plan_drive(hexapod().linkage, driven).loop_groups[0].system for driven in (legs, legs[:1]))
-    assert [shards(several, poses) for poses in (127, 360, 8191, 8192)] == [1, 2, 8, 1]
+    assert [shards(single, poses) for poses in (127, 360, 8191, 8192)] == [1, 2, 8, 1]  # the last is interpolated
+    rows = np.linspace(0.0, 1.0, 8192) * np.ones((6, 1))  # of several inputs none is
+    assert [shard_count(several, rows[:, :n], SolverOptions(cores=8)) for n in (127, 360, 8192)] == [1, 2, 8]
     there_and_back = np.concatenate([np.linspace(0.0, 1.0, 180), np.linspace(1.0, 0.0, 180)])[None]
     assert shard_count(single, there_and_back, SolverOptions(cores=8)) == 1
     assert shard_count(single, there_and_back[:, :180], SolverOptions(cores=8)) == 1
@@ -105,9 +107,10 @@ def test_short_ranges_of_many_joints_are_shared_by_cores():
 
 
 @pytest.mark.long
-def test_shards_of_a_short_range_are_the_range():
+@pytest.mark.parametrize("poses", [300, 9000])
+def test_shards_of_a_range_are_the_range(poses):
     """Lengths of a few tens: 1e-11 is rounding over the smallest singular value, some 1e-2."""
-    way = np.linspace(0.0, 2 * np.pi, 300)
+    way = np.linspace(0.0, 2 * np.pi, poses)
     drive = {f"leg {number}": 8.0 * np.sin(way + number) for number in range(6)}
     whole, split = (hexapod().sweep(drive, options=SolverOptions(cores=cores)) for cores in (1, 2))
     assert np.all(whole.closed) and np.all(split.closed)

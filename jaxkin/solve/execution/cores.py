@@ -46,8 +46,10 @@ def shard_count(system: LoopSystem, inputs: Float[np.ndarray, "driven poses"], o
         return 1
     least, poses = options.min_shard_poses, inputs.shape[1]
     if least is None:
-        costly = sum(map(len, system.loops)) >= COSTLY_JOINTS and (len(inputs) > 1 or is_monotonic(inputs[0]))
-        least = MIN_COSTLY_SHARD_POSES if costly and poses < options.interpolate_from else MIN_SHARD_POSES
+        several = len(inputs) > 1  # whose poses are costly however many they are: none is interpolated
+        short = several or (poses < options.interpolate_from and is_monotonic(inputs[0]))
+        costly = short and sum(map(len, system.loops)) >= COSTLY_JOINTS
+        least = MIN_COSTLY_SHARD_POSES if costly else MIN_SHARD_POSES
     return max(1, min(options.cores or available_cores(), poses // least))
 
 
