@@ -223,10 +223,9 @@ def race() -> None:
         stop = LevenbergMarquardt(target=target)
 
         def downhill(vectors, solver, weight=weight, stop=stop, constraints=constraints):
-            history: list[np.ndarray] = []
             penalty = Penalty.plain(weight, len(vectors), constraints)
             active = np.ones(len(vectors), bool)
-            found = search(solver, vectors, penalty, active, stop, history, ProgressBar(stop.iterations, False))[0]
+            found, _, history = search(solver, vectors, penalty, active, stop, ProgressBar(stop.iterations, False))
             verdict = solver.judge(found, penalty.shifts)
             judged = int(np.isfinite(np.concatenate(history)).sum()) + len(vectors)
             return bool(np.any((verdict.losses <= stop.target) & (verdict.violations <= MET))), judged

@@ -22,6 +22,7 @@ from jaxtyping import Array, Bool, Float
 from jaxkin._arguments import by_name, check_motion, numbers
 from jaxkin._names import nearest
 from jaxkin.effects.pose_plot import draw_lines, save_rows
+from jaxkin.effects.pose_shards import in_shards
 from jaxkin.geometry.movements import is_length
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.coordinates import resolve
@@ -32,11 +33,20 @@ from jaxkin.mechanism.motion import Motion, as_point
 from jaxkin.mechanism.singularity import singular_report
 from jaxkin.solve.closure.rod_spin import vee
 from jaxkin.solve.execution.compiler import whole_program
+from jaxkin.solve.range.groups import in_groups
 from jaxkin.solve.status import Status
 from jaxkin.topology.structure import Structure
 
 NAMES = {1: "Velocities", 2: "Accelerations", 3: "Jerks"}
 """Order of a derivative with respect to time -> its name."""
+MIN_SHARD_ENTRIES = 2**19
+"""Least number of poses of a shard, times the square of the number of joints, times the order."""
+LONG_RANGE = 2**14
+"""Number of poses beyond which derivatives are found by groups: what those of order two and three hold of each pose is
+beyond the cache. 100,000 poses of Jansen's leg take 22 and 56 ms in place of 62 and 134; 10,000 take 2.1 and 5.8 ms by
+groups, and 2.0 and 4.4 at once."""
+GROUP = 2**12
+"""Largest number of poses of such a group: groups of a quarter as many take a third longer."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -191,7 +201,9 @@ def jerks(
 
 def _rates(motion: Motion, *given: Inputs) -> Rates:
     """Compute the rates of all joints, of as many orders as rates of the inputs are given."""
-    return Rates(motion, given[-1], _joint_rates(*known_motion(motion), (motion.inputs, *given)))
+    drive, known = known_motion(motion)
+    orders = in_shards(partial(_joint_rates, drive), known, (motion.inputs, *given), MIN_SHARD_ENTRIES // len(given))
+    return Rates(motion, given[-1], orders)
 
 
 @partial(whole_program, static=(0,))
@@ -200,10 +212,18 @@ def _joint_rates(drive: KnownDrive, known: KnownMotion, inputs: tuple[Inputs, ..
 
     `inputs` are displacements and rates of the driven coordinates, by order.
     """
-    finite = known.status != Status.NONFINITE.value
-    for rate in jax.tree.leaves(inputs[1:]):
-        finite &= jnp.isfinite(rate)
-    return nan_where_not_finite(derivatives(follow(drive, known), inputs), finite)
+
+    def of_group(own: Any) -> tuple[JointRates, ...]:
+        displacements, status, inputs = own
+        finite = status != Status.NONFINITE.value
+        for rate in jax.tree.leaves(inputs[1:]):
+            finite &= jnp.isfinite(rate)
+        here = known._replace(displacements=displacements, status=status)
+        return nan_where_not_finite(derivatives(follow(drive, here), inputs), finite)
+
+    poses = len(known.status)
+    size = GROUP if poses > LONG_RANGE else max(poses, 1)
+    return in_groups(of_group, (known.displacements, known.status, inputs), size, axis=0)
 
 
 @partial(whole_program, static=(0,))

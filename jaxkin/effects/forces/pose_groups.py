@@ -4,21 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from functools import partial
 from typing import Any
 
 import jax
 import jax.numpy as jnp
-import numpy as np
-from jax import lax
 
-from jaxkin._traced import inside_trace, traced
+from jaxkin._traced import traced
 from jaxkin.effects.forces.acting import ActingNumbers
 from jaxkin.effects.forces.balance import LARGEST_GROUP
 from jaxkin.effects.forces.given import rows_per_pose
+from jaxkin.effects.pose_shards import in_shards
 from jaxkin.mechanism.known_motion import Inputs, KnownMotion
-from jaxkin.solve.device import on_cpu
-from jaxkin.solve.execution.cores import available_cores, in_threads, shard_starts
 from jaxkin.solve.range.groups import in_groups
 
 MIN_SHARD_ENTRIES = 2**17
@@ -53,30 +49,16 @@ def on_cores(
 ) -> Any:
     """Apply a function, which calls programs, to shards of the poses of a motion, and join what it returns.
 
-    `speeds` are first and second derivatives of the inputs by time, None at rest. Poses are one shard where they are
-    few, where numbers are traced, and on a device that is no CPU.
+    `speeds` are first and second derivatives of the inputs by time, None at rest.
     """
-    poses, joints = len(known.status), len(known.displacements)
-    count = min(available_cores(), poses * joints**2 // MIN_SHARD_ENTRIES)
-    if count < 2 or not on_cpu() or traced((known, inputs, speeds, acting)) or inside_trace():
+    if traced(acting):
         return function(known, inputs, speeds, acting)
-    host = jax.tree.map(np.asarray, (known.displacements, known.status, inputs, speeds, _rows(acting)))
-    length, starts = shard_starts(poses, count)
 
-    def of_shard(start: int) -> Any:
-        displacements, status, inputs, speeds, rows = jax.tree.map(lambda array: array[start : start + length], host)
-        own = known._replace(displacements=displacements, status=status)
-        return function(own, inputs, speeds, _with_rows(acting, rows))
+    def of_shard(known: KnownMotion, rows: Any) -> Any:
+        inputs, speeds, of_loads = rows
+        return function(known, inputs, speeds, _with_rows(acting, of_loads))
 
-    return _joined(starts[-2] + length - starts[-1], in_threads(of_shard, starts, count))
-
-
-@partial(jax.jit, static_argnums=0)
-def _joined(overlap: int, shards: list[Any]) -> Any:
-    """Join shards along the poses; the last one begins with `overlap` poses of the one before it."""
-    *others, last = shards
-    shards = [*others, jax.tree.map(lambda rows: rows[overlap:], last)]
-    return jax.tree.map(lambda *rows: lax.concatenate(rows, 0), *shards)
+    return in_shards(of_shard, known, (inputs, speeds, _rows(acting)), MIN_SHARD_ENTRIES)
 
 
 def _rows(acting: ActingNumbers) -> list[dict[str, Any]]:
