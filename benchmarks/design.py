@@ -259,7 +259,7 @@ def race() -> None:
             began = time.process_time()
             taken, judged = run()
             seconds = time.process_time() - began
-            print(f"  ({name}) {label:34}{seconds:>11.1f}{taken or 'not reached':>15}{judged:>16}", flush=True)
+            print(f"  ({name}) {label:34}{seconds:>11.2f}{taken or 'not reached':>15}{judged:>16}", flush=True)
 
 
 def _scipy(problem, chosen, weight, target, vector) -> tuple[bool, int]:
