@@ -6,6 +6,7 @@ trimesh takes many broken files for empty scenes, and some claims for what to al
 from __future__ import annotations
 
 import re
+import warnings
 import zipfile
 from pathlib import Path
 
@@ -22,6 +23,12 @@ OBJ_ELEMENTS = (b"f ", b"l ", b"p ", b"curv", b"surf")
 """How lines of OBJ begin that use corners."""
 OBJ_TAIL = 1_000_000
 """Bytes at the end of OBJ in which its last lines are looked for."""
+
+_OBJ_COUNTS = re.compile(rb"^#[^\r\n]*?(?:\bvert\w*\s*[:=]\s*(\d+)|\b(\d+)\s+vert)", re.I | re.M)
+"""Comments of OBJ that say how many corners there are."""
+
+_CALLER = 7
+"""Calls from a warning to `load`."""
 
 UNITS = {"micron": "um", "millimeter": "mm", "centimeter": "cm", "meter": "m", "inch": "in", "foot": "ft"}
 """Units of length of 3MF, and what they are called here."""
@@ -74,6 +81,7 @@ def _stl(path: Path, head: bytes, size: int) -> None:
             tail = file.read()
         if b"endsolid" not in tail.lower():
             raise ValueError(f"{path.name} is cut off: it does not end with endsolid; copy or export it again")
+        _check_points(path.name, rb"^\s*vertex\s", head)
         return
     if size < 84:
         raise ValueError(f"{path.name} is no STL file: it is shorter than the header of one")
@@ -90,17 +98,40 @@ def _stl(path: Path, head: bytes, size: int) -> None:
 
 def _obj(path: Path, head: bytes, size: int) -> None:
     """Check that OBJ is text, and that faces follow the last corners: where it is cut off among corners, the objects
-    before are whole."""
+    before are whole. Corners behind the last face are told where the file says by itself that it is whole."""
     if b"\0" in head:
         raise ValueError(f"{path.name} is no OBJ file: it is not text")
+    _check_points(path.name, rb"^\s*v\s", head)
     with path.open("rb") as file:
         file.seek(max(0, size - OBJ_TAIL))
         tail = b"\n" + file.read()
     last = {kind: max(tail.rfind(b"\n" + kind), tail.rfind(b"\r" + kind)) for kind in (b"v ", *OBJ_ELEMENTS)}
-    unused = last.pop(b"v ") > max(last.values())
-    if unused and (max(last.values()) >= 0 or b"\nf " in path.read_bytes()):
+    if last.pop(b"v ") <= (used := max(last.values())):
+        return
+    text = path.read_bytes()
+    if used < 0 and b"\nf " not in text:
+        return
+    corners = len(re.findall(rb"^v\s", text, re.M))
+    counts = {int(number) for pair in _OBJ_COUNTS.findall(text) for number in pair if number}
+    if tail.rstrip().rpartition(b"\n")[2].startswith(b"#") or corners in counts:
+        warnings.warn(
+            f"{path.name}: behind its last face come corners that no face has, which are left out; where parts are "
+            "missing it is cut off: copy or export it again",
+            stacklevel=_CALLER,
+        )
+        return
+    raise ValueError(
+        f"{path.name} is cut off: behind its last face come corners that no face has; copy or export it again, or, if "
+        "it is whole, add the line '# end' at its end"
+    )
+
+
+def _check_points(name: str, begin: bytes, head: bytes) -> None:
+    """Refuse numbers with decimal commas in lines of a text that begin in a way."""
+    if comma := re.search(begin + rb"[^\r\n]*?([+-]?\d+,\d+)", head, re.I | re.M):
         raise ValueError(
-            f"{path.name} is cut off: behind its last face come corners that no face has; copy or export it again"
+            f"{name} has numbers with commas, such as {comma[1].decode()!r}, and readers expect decimal points: export "
+            "it with the settings of a language that has them, or replace the commas"
         )
 
 
@@ -119,6 +150,8 @@ def _ply(path: Path, head: bytes, size: int) -> None:
             )
         if element == b"face" and int(count) > MAX_TRIANGLES:
             raise too_many(path.name, int(count))
+    if re.search(rb"^format\s+ascii", head, re.M):
+        _check_points(path.name, rb"^(?=\s*[+-]?\d)", head[end.end() :])
 
 
 def _3mf(path: Path, head: bytes, size: int) -> str:

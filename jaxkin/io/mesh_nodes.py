@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import tempfile
+import warnings
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +15,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin._names import listed
 from jaxkin.geometry.pose import apply
 from jaxkin.io.gltf_colors import Color, from_gltf
 from jaxkin.io.mesh_check import MAX_MESH_NODES, MAX_TRIANGLES, check, is_binary_stl
@@ -22,6 +24,9 @@ from jaxkin.io.time_limit import TimeLimit
 
 MESH_MEMORY = 8 << 30
 """Bytes of address space for the reader, most of it never used: `MAX_TRIANGLES` triangles as text take two."""
+
+_CALLER = 7
+"""Calls from a warning to `load`."""
 
 _LEAST, _GREATEST = 1e-15, 1e15
 """Sizes of parts, from what is a micrometre in thousands of kilometres to the other way round."""
@@ -126,7 +131,7 @@ def _unreadable(path: Path, why: str) -> ValueError:
 def _nodes(path: Path, written: Path) -> list[MeshNode] | ValueError:
     """Make the nodes of a file of what the reader wrote."""
     with np.load(written) as data:
-        entries = json.loads(str(data["about"]))
+        entries, left_out = json.loads(str(data["about"])), json.loads(str(data["left_out"]))
         try:
             nodes = [
                 _node(entry["name"], _color(path, entry["color"]), data[f"corners{k}"], data[f"pose{k}"], path.name)
@@ -134,7 +139,13 @@ def _nodes(path: Path, written: Path) -> list[MeshNode] | ValueError:
             ]
         except ValueError as error:
             return error
-    return nodes or ValueError(f"{path.name} holds no triangles: export the parts as solids")
+    others = f"{listed(left_out)} {'is' if len(left_out) == 1 else 'are'} no part, and left out" if left_out else ""
+    if not nodes:
+        none = f"holds no parts: {others}; " if others else "holds no triangles: "
+        return ValueError(f"{path.name} {none}export the parts as solids")
+    if others:
+        warnings.warn(f"{path.name}: {others}; export them as solids if they matter", stacklevel=_CALLER)
+    return nodes
 
 
 def _color(path: Path, written: list[float] | None) -> Color | None:

@@ -1,36 +1,39 @@
 """Reads mesh files by trimesh, as a program of its own: `python mesh_worker.py TRIANGLES NODES FOLDER FILE...`.
 
 What it reads is not to be trusted: a few bytes may ask for any amount of memory or time. It imports nothing of jaxkin,
-so that it starts at once. Of the k-th file FOLDER gets k.npz, the triangles of every node and their names, or k.txt,
-the reason why there are none, as one line.
+so that it starts at once. Of the k-th file FOLDER gets k.npz, the triangles of every node and their names, and what was
+left out, or k.txt, the reason why there are none, as one line.
 """
 
+import io
 import json
+import re
+import runpy
 import sys
-from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-
-class Refused(Exception):
-    """What the reader would take, but is too much or makes no sense."""
+_THREEMF = runpy.run_path(str(Path(__file__).with_name("threemf_reader.py")))
+Refused = _THREEMF["Refused"]
+"""What the reader would take, but is too much or makes no sense."""
 
 
 def main(most: int, parts: int, folder: Path, sources: list[Path]) -> None:
     """Write the nodes of each file, or the reason why there are none."""
     kinds = [source.suffix.lower().removeprefix(".") for source in sources]
     # what trimesh could use and reading does without takes twice as long to import as all the rest
-    for module in ("scipy", "matplotlib", "PIL", *(("networkx",) if "3mf" not in kinds else ())):
+    for module in ("scipy", "matplotlib", "PIL", "networkx"):
         sys.modules[module] = None  # pyright: ignore[reportArgumentType]
     for k, (source, kind) in enumerate(zip(sources, kinds, strict=True)):
         try:
             with source.open("rb") as file:
-                nodes = read(file, kind, most, parts)
+                nodes, left_out = read(file, kind, most, parts)
             arrays = {f"{key}{n}": node[key] for n, node in enumerate(nodes) for key in ("corners", "pose")}
             about = [{"name": node["name"], "color": node["color"]} for node in nodes]
-            np.savez(folder / "unfinished.npz", **arrays, about=np.array(json.dumps(about)))
+            said = {"about": np.array(json.dumps(about)), "left_out": np.array(json.dumps(left_out))}
+            np.savez(folder / "unfinished.npz", **arrays, **said)
             (folder / "unfinished.npz").replace(folder / f"{k}.npz")
         except Exception as error:  # the loaders raise whatever a damaged file makes them stumble over
             (folder / f"{k}.txt").write_text(reason(error))
@@ -45,13 +48,24 @@ def reason(error: Exception) -> str:
     return str(error) if isinstance(error, Refused) else f"{type(error).__name__}: {error}".splitlines()[0][:200]
 
 
-def read(file, kind: str, most: int, parts: int) -> list[dict]:
+def read(file, kind: str, most: int, parts: int) -> tuple[list[dict], list[str]]:
     """Read nodes with triangles, each with its name, its colour, its corners in its own frame, and its pose in the
-    world."""
-    from trimesh import Trimesh, graph, load_scene
+    world; and say what was left out."""
+    if kind == "3mf":  # trimesh mixes up objects of several model files, and takes supports for parts
+        return _THREEMF["read_3mf"](file, most, parts)
+    if kind == "obj":
+        text = counted_from_one(file.read())
+        if not re.search(rb"^o\s", text, re.M) and 1 < len(re.findall(rb"^g\s", text, re.M)) <= parts:
+            nodes = scene_nodes(io.BytesIO(re.sub(rb"^g(?=\s)", b"o", text, flags=re.M)), kind, most, parts)
+            if all(closed(node["corners"]) for node in nodes):
+                return nodes, []  # the groups are solids, and not faces of one
+        file = io.BytesIO(text)
+    return scene_nodes(file, kind, most, parts), []
 
-    if kind == "3mf":  # trimesh gives up the search without a word when there are many instances
-        graph.multigraph_paths = partial(instances, parts=parts)
+
+def scene_nodes(file, kind: str, most: int, parts: int) -> list[dict]:
+    """Read the nodes with triangles of what trimesh makes of a file."""
+    from trimesh import Trimesh, load_scene
 
     options: dict[str, dict[str, Any]] = {
         "obj": {"split_objects": True, "group_material": False, "skip_materials": True},
@@ -79,28 +93,36 @@ def read(file, kind: str, most: int, parts: int) -> list[dict]:
     return nodes
 
 
+def closed(corners: np.ndarray) -> bool:
+    """Tell whether each edge of triangles (n, 3, 3) is passed as often in one direction as in the other."""
+    numbers = np.unique(corners.reshape(-1, 3), axis=0, return_inverse=True)[1].reshape(-1, 3)
+    edges = np.concatenate([numbers[:, [0, 1]], numbers[:, [1, 2]], numbers[:, [2, 0]]])
+    edges = edges[edges[:, 0] != edges[:, 1]]
+    there, back = (np.sort(each[:, 0] * (numbers.max() + 1) + each[:, 1]) for each in (edges, edges[:, ::-1]))
+    return bool(np.array_equal(there, back))
+
+
+def counted_from_one(text: bytes) -> bytes:
+    """Write the corners of faces of OBJ that count back from the face, as -1 for the last one, by their numbers in the
+    file: trimesh counts all back from the end of the file. Texts without such faces are returned as they are."""
+    if not re.search(rb"^[ \t]*f\b[^\r\n]*\s-\d", text, re.M):
+        return text
+    corners, lines = 0, re.sub(rb"\\\r?\n", b" ", text).splitlines()
+    for number, line in enumerate(lines):
+        kind, *words = line.split() or [b""]
+        corners += kind == b"v"
+        if kind == b"f":
+            found = [int(word.partition(b"/")[0]) for word in words if word[:1] != b"#"]
+            lines[number] = b"f " + b" ".join(b"%d" % (k + corners + 1 if k < 0 else k) for k in found)
+    return b"\n".join(lines)
+
+
 def metres(mesh) -> np.ndarray:
     """Make the (4, 4) scaling to metres of a mesh of COLLADA, the only format whose unit trimesh leaves in its corners,
     as "meters" or "0.01 * meters"; the identity for others."""
     said = mesh.metadata.get("units", "")
     factor = float(said.split()[0]) if said.endswith("* meters") else 1.0
     return np.diag([factor, factor, factor, 1.0])
-
-
-def instances(G, source, parts: int) -> list[list]:
-    """List all paths from the source to the leaves of a graph with several edges between two nodes, as (node, edge)."""
-    found, todo = [], [[(source, 0)]]
-    while todo:
-        path = todo.pop()
-        below = G[path[-1][0]]
-        if len(path) > 100:
-            raise RecursionError
-        if not below:
-            found.append(path)
-        if len(found) + len(todo) > parts:
-            raise Refused(f"it holds more than {parts} parts")
-        todo += [[*path, (node, edge)] for node in reversed(list(below)) for edge in reversed(list(below[node]))]
-    return found
 
 
 def color(mesh) -> list[float] | None:
