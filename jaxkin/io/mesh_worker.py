@@ -32,8 +32,8 @@ def main(most: int, parts: int, folder: Path, sources: list[Path]) -> None:
                 nodes, left_out = read(file, kind, most, parts)
             arrays = {f"{key}{n}": node[key] for n, node in enumerate(nodes) for key in ("corners", "pose")}
             about = [{"name": node["name"], "color": node["color"]} for node in nodes]
-            said = {"about": np.array(json.dumps(about)), "left_out": np.array(json.dumps(left_out))}
-            np.savez(folder / "unfinished.npz", **arrays, **said)
+            arrays |= {"about": np.array(json.dumps(about)), "left_out": np.array(json.dumps(left_out))}
+            np.savez(folder / "unfinished.npz", **arrays)
             (folder / "unfinished.npz").replace(folder / f"{k}.npz")
         except Exception as error:  # the loaders raise whatever a damaged file makes them stumble over
             (folder / f"{k}.txt").write_text(reason(error))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from pathlib import Path
 from xml.etree.ElementTree import Element
 
@@ -10,7 +11,7 @@ import numpy as np
 from jaxkin._names import listed, nearest
 from jaxkin.geometry.inertial import NONE
 from jaxkin.geometry.pose import Transform
-from jaxkin.io.robot_couplings import Mimic, follower
+from jaxkin.io.robot_couplings import Mimic, held_at, tied
 from jaxkin.io.robot_gravity import gravity_notes
 from jaxkin.io.robot_inertials import sdf_inertial
 from jaxkin.io.robot_model import (
@@ -31,7 +32,6 @@ from jaxkin.io.sdf_frames import IN_ANOTHER, SdfFrames, is_true
 from jaxkin.io.sdf_gearbox import Gearbox, gearboxes
 from jaxkin.io.sdf_includes import axis_in_model, included
 from jaxkin.io.sdf_shapes import shapes_of
-from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import JointLimits
 from jaxkin.joints.kinds import JointKind
 
@@ -104,17 +104,17 @@ class _Reader:
         needed = {part for each in self.joints for part in each.parts}
         links = [link for name, link in self.links.items() if name != WORLD or WORLD in needed]
         fixed = [*([WORLD] if WORLD in needed else []), *self.fixed]
+        names = {each.name for each in self.joints}
+        mimics = [self._mimic(*each, names) for each in self.mimics]
+        self.joints, couplings, steps = tied(mimics, self.joints, self.notes)
         known = {each.name for each in self.joints if each.kind is not JointKind.FIXED}
         for name in self.motors:
             if name not in known:
                 self.notes.append(f"{self.file}: a controller is of {name!r}, which is no joint that moves; left out")
         motors = tuple(dict.fromkeys(name for name in self.motors if name in known))
-        by_name = {each.name: each for each in self.joints}
-        couplings = [made for mimic in self.mimics if (made := self._mimic(*mimic, by_name)) is not None]
         couplings += gearboxes(self.file, self.gearboxes, self.links, self.joints, fixed, self.notes)
-        return RobotModel(
-            tuple(links), tuple(self.joints), tuple(fixed), motors, tuple(self.notes), couplings=tuple(couplings)
-        )
+        joints, notes = tuple(self.joints), tuple(self.notes)
+        return held_at(RobotModel(tuple(links), joints, tuple(fixed), motors, notes, tuple(couplings)), steps)
 
     def _frames(self, model: Element) -> SdfFrames:
         inner = {each.get("name", ""): self._frames(each) for each in model.iterfind("model")}
@@ -197,10 +197,8 @@ class _Reader:
         name, reference = prefix + each.get("name", ""), link if link == WORLD else prefix + link
         return Gearbox(name, ends[0], ends[1], reference, (first, second), ratio, f"{tag(each)} of type 'gearbox'")
 
-    def _mimic(
-        self, name: str, prefix: str, mimic: Element, where: str, joints: dict[str, RobotJoint]
-    ) -> Coupling | None:
-        """Make the coupling `name = multiplier (leader - reference) + offset`; ValueError for an unknown leader."""
+    def _mimic(self, name: str, prefix: str, mimic: Element, where: str, joints: Collection[str]) -> tuple[Mimic, str]:
+        """Read `name = multiplier (leader - reference) + offset`, and its element; ValueError for an unknown leader."""
         leader = prefix + mimic.get("joint", "")
         if f"{leader} 1" in joints:  # of two axes, each of which is a joint here
             leader = f"{leader} {2 if mimic.get('axis') == 'axis2' else 1}"
@@ -210,8 +208,7 @@ class _Reader:
             float(numbers(mimic.findtext(key), 1, where, (none,))[0])
             for key, none in (("multiplier", 1), ("offset", 0), ("reference", 0))
         )
-        follows = Mimic(name, leader, factor, offset - factor * reference)
-        return follower(follows, joints, f"{where}: mimic", self.notes)
+        return Mimic(name, leader, factor, offset - factor * reference), f"{where}: mimic"
 
     def _axis(self, axis: Element | None, own: Transform, frames: SdfFrames, where: str) -> np.ndarray:
         """Read the direction of an axis in the frame of the model; z where none is written."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from pathlib import Path
 from xml.etree.ElementTree import Element
 
@@ -10,7 +11,7 @@ import numpy as np
 from jaxkin._names import nearest
 from jaxkin.geometry.inertial import NONE, Inertial
 from jaxkin.geometry.pose import Transform
-from jaxkin.io.robot_couplings import Mimic, follower
+from jaxkin.io.robot_couplings import Mimic, held_at, tied
 from jaxkin.io.robot_inertials import SIX, inertial
 from jaxkin.io.robot_loops import LoopPair, Loops, read_loops, unread_beside
 from jaxkin.io.robot_model import (
@@ -30,7 +31,6 @@ from jaxkin.io.robot_model import (
     unknown_parts,
 )
 from jaxkin.io.xml_tree import has_macros
-from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import JointLimits
 from jaxkin.joints.kinds import JointKind
 
@@ -90,6 +90,8 @@ class _Reader:
             )
             for name, each in self.links.items()
         )
+        mimics = [each for element in order if (each := self._mimic(element, {one.name for one in joints})) is not None]
+        joints, couplings, steps = tied(mimics, joints, self.notes)
         known = {each.name: each for each in joints}
         for name, _ in self.loops.kinds:
             self._known(name, known, "joint_name")
@@ -100,8 +102,8 @@ class _Reader:
                 f"{self.file}: {tag(joint)} inside <gazebo> is not read: write the loop into a file of loops"
                 for joint in each.iter("joint")
             ]
-        couplings = [each for element in order if (each := self._mimic(element, known)) is not None]
-        return RobotModel(links, (*joints, *loops), (base,), motors, tuple(self.notes), tuple(couplings))
+        model = RobotModel(links, (*joints, *loops), (base,), motors, tuple(self.notes), tuple(couplings))
+        return held_at(model, steps)
 
     def _parts(self, joint: Element) -> tuple[str, str]:
         """Find the parent and child link of a joint; ValueError where they are not there."""
@@ -180,8 +182,8 @@ class _Reader:
         limits = self._limits(each, where) if said in ("revolute", "prismatic") and kind is KINDS[said] else ()
         return RobotJoint(name, parts, kind, frame, frame, f"{said} {name!r}", limits)
 
-    def _mimic(self, each: Element, joints: dict[str, RobotJoint]) -> Coupling | None:
-        """Make the coupling of a joint that follows another one; None where it follows none, or does not move."""
+    def _mimic(self, each: Element, joints: Collection[str]) -> tuple[Mimic, str] | None:
+        """Read which of the joints a joint follows, with its element; None where it follows none of them."""
         found = each.find("mimic")
         name, where = each.get("name", ""), f"{self.file}: {tag(each)}: mimic"
         if found is None:
@@ -194,7 +196,7 @@ class _Reader:
         factor, offset = (
             float(numbers(found.get(key), 1, where, (none,))[0]) for key, none in (("multiplier", 1), ("offset", 0))
         )
-        return follower(Mimic(name, leader, factor, offset), joints, where, self.notes)
+        return Mimic(name, leader, factor, offset), where
 
     def _limits(self, each: Element, where: str) -> JointLimits:
         """Read the limits of a joint: none where neither is written, and zero for the one that is not."""

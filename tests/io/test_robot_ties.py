@@ -165,3 +165,41 @@ def test_what_is_written_for_mujoco_is_read_without_a_word_about_its_least_masse
     joint = jk.cylindrical("c", "ground", "a", point=(0, 0, 0), axis=(0, 0, 1))
     jk.write_mjcf(jk.Mechanism.build(fixed=["ground"], joints=[joint], unit="m"), tmp_path / "model.xml")
     assert not [note for note in jk.load(tmp_path / "model.xml").mechanism().notes if "bound" in note]
+
+
+HELD = f"""<robot name='r'>{LINKS}
+<joint name='j1' type='continuous'><parent link='a'/><child link='b'/><axis xyz='0 0 1'/></joint>
+<joint name='j2' type='%s'><parent link='b'/><child link='c'/><origin xyz='1 0 0'/><axis xyz='0 0 1'/>
+<limit lower='-3' upper='3'/><mimic joint='j1' multiplier='0' offset='.25'/></joint>
+<joint name='j3' type='continuous'><parent link='c'/><child link='d'/><origin xyz='1 0 0'/><axis xyz='0 0 1'/>
+<mimic joint='j2' multiplier='2' offset='.5'/></joint></robot>"""
+
+
+@pytest.mark.parametrize(("kind", "turned", "up"), [("revolute", 1.25, 0.0), ("prismatic", 1.0, 0.25)])
+def test_what_follows_by_nothing_is_held_at_its_offset_with_what_follows_it(kind, turned, up, tmp_path):
+    """j2 = 0.25 and j3 = 2 j2 + 0.5 = 1, whatever j1 is: both were freedoms of their own."""
+    (tmp_path / "arm.urdf").write_text(HELD % kind)
+    assembly = jk.load(tmp_path / "arm.urdf")
+    mechanism = assembly.mechanism()
+    assert mechanism.mobility().freedoms == 1
+    middle = {part.name: part.box.mean(axis=0) for part in assembly.parts}
+    angle = 0.25 if kind == "revolute" else 0.0
+    np.testing.assert_allclose(middle["d"], [1 + np.cos(angle), np.sin(angle), up], atol=1e-12)
+    edge = np.array(assembly.parts[assembly.names.index("d")].triangles).reshape(-1, 3) - middle["d"]
+    axis = [np.cos(turned), np.sin(turned), 0]  # the box of the link stands as the link does
+    np.testing.assert_allclose(np.abs(edge @ axis).max(), np.abs(edge[:, 2]).max(), rtol=1e-9)
+    notes = "\n".join(mechanism.notes)
+    assert "holds 'j2' at 0.25: the factor is zero" in notes and "holds 'j3' at 1: 'j2' is held, too" in notes
+
+
+def test_a_joint_of_sdf_that_follows_by_nothing_is_held_too(tmp_path):
+    """At its offset, whatever the reference is, which the factor multiplies."""
+    (tmp_path / "arm.sdf").write_text(
+        "<sdf version='1.11'><model name='m'><link name='a'/><link name='b'/>"
+        "<joint name='j' type='revolute'><parent>world</parent><child>a</child><axis><xyz>0 0 1</xyz></axis></joint>"
+        "<joint name='k' type='prismatic'><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz><mimic joint='j'>"
+        "<multiplier>0</multiplier><offset>.5</offset><reference>3</reference></mimic></axis></joint></model></sdf>"
+    )
+    assembly = jk.load(tmp_path / "arm.sdf")
+    assert assembly.mechanism().mobility().freedoms == 1
+    assert assembly.parts[assembly.names.index("b")].box.mean(axis=0)[2] == pytest.approx(0.5, abs=1e-12)
