@@ -15,7 +15,9 @@ from typing import Any
 
 import numpy as np
 
-_THREEMF = runpy.run_path(str(Path(__file__).with_name("threemf_reader.py")))
+_THREEMF, _GLB = (runpy.run_path(str(Path(__file__).with_name(f"{name}_reader.py"))) for name in ("threemf", "glb"))
+"""Readers of formats of which trimesh mixes up objects, takes supports for parts, or leaves out what it cannot read."""
+
 Refused = _THREEMF["Refused"]
 """What the reader would take, but is too much or makes no sense."""
 
@@ -45,14 +47,20 @@ def reason(error: Exception) -> str:
         return "it asks for more memory than a mesh of that size needs"
     if isinstance(error, RecursionError):
         return "its nodes are nested without end"
-    return str(error) if isinstance(error, Refused) else f"{type(error).__name__}: {error}".splitlines()[0][:200]
+    return (
+        str(error)
+        if isinstance(error, (Refused, _GLB["Refused"]))
+        else f"{type(error).__name__}: {error}".splitlines()[0][:200]
+    )
 
 
 def read(file, kind: str, most: int, parts: int) -> tuple[list[dict], list[str]]:
     """Read nodes with triangles, each with its name, its colour, its corners in its own frame, and its pose in the
     world; and say what was left out."""
-    if kind == "3mf":  # trimesh mixes up objects of several model files, and takes supports for parts
+    if kind == "3mf":
         return _THREEMF["read_3mf"](file, most, parts)
+    if kind == "glb":
+        return _GLB["read_glb"](file, most, parts)
     if kind == "obj":
         text = counted_from_one(file.read())
         if not re.search(rb"^o\s", text, re.M) and 1 < len(re.findall(rb"^g\s", text, re.M)) <= parts:
@@ -70,7 +78,6 @@ def scene_nodes(file, kind: str, most: int, parts: int) -> list[dict]:
     options: dict[str, dict[str, Any]] = {
         "obj": {"split_objects": True, "group_material": False, "skip_materials": True},
         "ply": {"skip_materials": True},
-        "glb": {"merge_primitives": True},
     }
     scene = load_scene(file, file_type=kind, process=False, **options.get(kind, {}))
     nodes, total = [], 0
