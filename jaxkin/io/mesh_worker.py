@@ -15,8 +15,11 @@ from typing import Any
 
 import numpy as np
 
-_THREEMF, _GLB = (runpy.run_path(str(Path(__file__).with_name(f"{name}_reader.py"))) for name in ("threemf", "glb"))
-"""Readers of formats of which trimesh mixes up objects, takes supports for parts, or leaves out what it cannot read."""
+_THREEMF, _GLB, _OBJ = (
+    runpy.run_path(str(Path(__file__).with_name(f"{name}.py")))
+    for name in ("threemf_reader", "glb_reader", "obj_faces")
+)
+"""What reads formats of which trimesh mixes up objects, takes supports for parts, or leaves out what it cannot read."""
 
 Refused = _THREEMF["Refused"]
 """What the reader would take, but is too much or makes no sense."""
@@ -62,7 +65,7 @@ def read(file, kind: str, most: int, parts: int) -> tuple[list[dict], list[str]]
     if kind == "glb":
         return _GLB["read_glb"](file, most, parts)
     if kind == "obj":
-        text = counted_from_one(file.read())
+        text = _OBJ["plain_faces"](file.read())
         if not re.search(rb"^o\s", text, re.M) and 1 < len(re.findall(rb"^g\s", text, re.M)) <= parts:
             nodes = scene_nodes(io.BytesIO(re.sub(rb"^g(?=\s)", b"o", text, flags=re.M)), kind, most, parts)
             if all(closed(node["corners"]) for node in nodes):
@@ -107,21 +110,6 @@ def closed(corners: np.ndarray) -> bool:
     edges = edges[edges[:, 0] != edges[:, 1]]
     there, back = (np.sort(each[:, 0] * (numbers.max() + 1) + each[:, 1]) for each in (edges, edges[:, ::-1]))
     return bool(np.array_equal(there, back))
-
-
-def counted_from_one(text: bytes) -> bytes:
-    """Write the corners of faces of OBJ that count back from the face, as -1 for the last one, by their numbers in the
-    file: trimesh counts all back from the end of the file. Texts without such faces are returned as they are."""
-    if not re.search(rb"^[ \t]*f\b[^\r\n]*\s-\d", text, re.M):
-        return text
-    corners, lines = 0, re.sub(rb"\\\r?\n", b" ", text).splitlines()
-    for number, line in enumerate(lines):
-        kind, *words = line.split() or [b""]
-        corners += kind == b"v"
-        if kind == b"f":
-            found = [int(word.partition(b"/")[0]) for word in words if word[:1] != b"#"]
-            lines[number] = b"f " + b" ".join(b"%d" % (k + corners + 1 if k < 0 else k) for k in found)
-    return b"\n".join(lines)
 
 
 def metres(mesh) -> np.ndarray:

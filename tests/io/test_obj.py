@@ -1,9 +1,11 @@
 """OBJ as its exporters write it: corners that are counted back, groups, corners of no face, and decimal commas."""
 
+import numpy as np
 import pytest
 import trimesh
 
 from jaxkin.io.load import load
+from jaxkin.io.obj_faces import triangles
 
 BOXES = {"crank": trimesh.creation.box((1, 2, 3)), "rod": trimesh.creation.box((2, 2, 2)).apply_translation((9, 0, 0))}
 
@@ -68,3 +70,52 @@ def test_decimal_commas_are_told_as_such(tmp_path, kind):
     file.write_text(head + begin + rest.replace(".", ","))
     with pytest.raises(ValueError, match=rf"^crank\.{kind} has numbers with commas, such as '-?\d+,\d+'.* points"):
         load(file)
+
+
+def ring(rng, count, size):
+    """A simple polygon (count, 2) around the origin, with corners at random distances up to a size."""
+    angles = np.sort(rng.uniform(0, 2 * np.pi, count - 3).tolist() + [0.1, 2.2, 4.3])
+    return (size * rng.uniform(0.3, 1, count) * [np.cos(angles), np.sin(angles)]).T
+
+
+def area(flat):
+    x, y = flat.T
+    return (x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_faces_that_are_not_convex_are_divided_into_triangles_without_overlap(seed):
+    """In any plane, however far away; the areas of the triangles, none turned over, add up to that of the face."""
+    rng = np.random.default_rng(seed)
+    flat = ring(rng, rng.integers(4, 15), 5.0)
+    if seed % 3 == 0:  # a hole, with a bridge to it that is passed twice
+        hole = 0.1 * ring(rng, 5, 5.0)[::-1]
+        start = int(np.argmax(np.linalg.norm(flat, axis=1)))
+        near = int(np.argmax(hole @ flat[start]))
+        flat = np.concatenate(
+            [np.roll(flat, -start, axis=0), flat[[start]], np.roll(hole, -near, axis=0), hole[[near]]]
+        )
+    flat = flat if seed % 2 else flat[::-1]
+    turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    corners = np.pad(flat, ((0, 0), (0, 1))) @ turn.T + 1e4 * rng.normal(size=3) * (seed % 5 == 0)
+    found = triangles(corners)
+    if len(found) > 1:
+        assert len(found) == len(flat) - 2
+        areas = np.array([area(flat[rows]) for rows in found]) * np.sign(area(flat))
+        assert areas.min() > -1e-7 and areas.sum() == pytest.approx(abs(area(flat)), rel=1e-9)
+    else:
+        assert found == [list(range(len(flat)))]
+    turns = [area(np.take(flat, [k, k + 1, k + 2], axis=0, mode="wrap")) for k in range(len(flat))]
+    assert len(found) > 1 or np.min(turns * np.sign(area(flat))) >= 0
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("start", [0, 2, 3])
+def test_a_bracket_of_polygons_is_a_solid(tmp_path, start):
+    """The fans of its two sides covered what is outside of it, and it was said to cut itself."""
+    side = np.roll([(0, 0), (4, 0), (4, 1), (1, 1), (1, 4), (0, 4)], start, axis=0)
+    around = [f"f {k + 1} {(k + 1) % 6 + 1} {(k + 1) % 6 + 7} {k + 7}" for k in range(6)]
+    corners = [f"v {x} {y} {z}" for z in (0, 2) for x, y in side]
+    (tmp_path / "bracket.obj").write_text("\n".join([*corners, "f 6 5 4 3 2 1", "f 7/1 8 9 10 11 12", *around]))
+    (part,) = load(tmp_path / "bracket.obj").parts
+    assert np.linalg.det(part.triangles).sum() / 6 == pytest.approx(14.0) and len(part.faces) == 8
