@@ -145,7 +145,7 @@ def _mate(
     found = mate(each.kind, features[0], features[1], PARALLEL_MATES, length) if features[0] and features[1] else None
     if found is None:
         named = [side.kind or "nameless feature" for side in each.sides]
-        of = " and ".join(f"{'an' if kind[0] in 'aeiou' else 'a'} {kind}" for kind in named)
+        of = " and ".join(f"{'an' if kind[0].lower() in 'aeiou' else 'a'} {kind}" for kind in named)
         notes.append(f"{text} of {of}, between {parts[0]!r} and {parts[1]!r}, is not understood; left out")
         return None
     ends = (parts[1], parts[0]) if found.swapped else parts

@@ -247,10 +247,13 @@ class StudyFile(BaseModel):
 
     def made_couplings(self, file: str) -> tuple[Coupling, ...]:
         """Make the couplings; ValueError for a ratio of zero, and the like."""
-        try:
-            return tuple(table.made(name) for name, table in self.couplings.items())
-        except ValueError as error:
-            raise ValueError(f"{file}: {error}") from None
+        made = []
+        for name, table in self.couplings.items():
+            try:
+                made.append(table.made(name))
+            except ValueError as error:
+                raise ValueError(f"{file}: couplings.{name}: {error}") from None
+        return tuple(made)
 
     def asked_effects(self, file: str) -> Settings:
         """Find the effects that are not off, with their settings; ValueError for names of no effect."""

@@ -106,7 +106,7 @@ def test_faces_that_are_not_convex_are_divided_into_triangles_without_overlap(se
     else:
         assert found == [list(range(len(flat)))]
     turns = [area(np.take(flat, [k, k + 1, k + 2], axis=0, mode="wrap")) for k in range(len(flat))]
-    assert len(found) > 1 or np.min(turns * np.sign(area(flat))) >= 0
+    assert len(found) > 1 or np.min(np.array(turns) * np.sign(area(flat))) >= 0
 
 
 @pytest.mark.long

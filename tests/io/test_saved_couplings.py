@@ -74,7 +74,11 @@ def test_a_written_study_says_the_same(tmp_path, coupling):
         (RACK.replace("8.0", '"8"'), "couplings.steering.radius: expected a number, got '8'"),
         (RACK.replace("radius", "radus"), r"no key 'couplings.steering.radus'; did you mean 'radius'"),
         (RACK + "\nratio = 2.0", "a coupling of kind 'rack' has no ratio; it takes pinion, rack, radius"),
-        (RACK.replace("8.0", "0.0"), "study.toml: the radius of 'pinion' must not be zero"),
+        (RACK.replace("8.0", "0.0"), "study.toml: couplings.steering: the radius of 'pinion' must not be zero"),
+        (
+            'kind = "relation"\nfactors = { pinion = 1.0 }',
+            "study.toml: couplings.steering: a coupling ties at least two",
+        ),
         (RACK.replace('"slide"', '"slid"'), "coupling 'steering': there is no joint 'slid'; did you mean 'slide'"),
     ],
 )
