@@ -3,7 +3,7 @@
 | what | read by | written by |
 |---|---|---|
 | STEP | `step`, with `step_solid` and the other `step_...` | |
-| meshes | `mesh`, `mesh_nodes`, `mesh_check`, `mesh_regions` | |
+| meshes | `mesh`, `mesh_nodes`, `mesh_check`, `mesh_regions`, `threemf_reader`, `glb_reader`, `obj_faces` | |
 | exports of CAD systems for Simscape Multibody | `exports`, `simscape`, and the `export_...` | |
 | robots, all formats | `robot_files`, `robots`, `robot_model` and the other `robot_...`, `shape_masses` | `writable`, |
 | | | `written_masses`, `single_motions` |
