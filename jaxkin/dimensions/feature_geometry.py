@@ -26,7 +26,7 @@ class Between(NamedTuple):
     hinge: Any
     """Unit vector of the axis about which the second feature turns to change only the angle."""
     about: Any
-    """A point of the axis `hinge`."""
+    """A point of the axis `hinge`: about it the second feature turns without a change of the distance."""
     across: Any
     """The distance as a vector, from the first feature to the second."""
     parallel: Any
@@ -36,6 +36,7 @@ class Between(NamedTuple):
 class _Ends(NamedTuple):
     """Positions and directions of two features: vectors of three numbers."""
 
+    origin_1: Any
     origin_2: Any
     direction_1: Any
     direction_2: Any
@@ -63,6 +64,7 @@ def between(xp, one: Feature, pose1, two: Feature, pose2) -> Between:
     """Measure how feature `two` at `pose2` lies to feature `one` at `pose1` (4x4 poses)."""
     p1, p2 = pose1[:3, 3], pose2[:3, 3]
     ends = _Ends(
+        p1,
         p2,
         pose1[:3, one.axis],
         pose2[:3, two.axis],
@@ -124,7 +126,8 @@ def _with_plane(xp, ends: _Ends, plane_first: bool) -> Between:
     along = ends.delta @ normal
     hinge = xp.where(lie.parallel, ends.side_1, lie.cross / xp.sqrt(lie.square))
     offset = ends.delta @ ends.direction_1
-    return Between(sign * along, lie.angle, offset, sign * normal, hinge, ends.origin_2, along * normal, lie.parallel)
+    about = ends.origin_2 if plane_first else ends.origin_1  # the point whose distance from the plane it is
+    return Between(sign * along, lie.angle, offset, sign * normal, hinge, about, along * normal, lie.parallel)
 
 
 def _of_axes(xp, ends: _Ends) -> Between:

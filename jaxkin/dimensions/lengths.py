@@ -232,6 +232,9 @@ def _arranged(xp, kind: tuple[Body, tuple[Length, ...]], original, wanted) -> tu
     for length, new in zip(changed, wanted, strict=True):
         one, two = body[length.first], body[length.second]
         found = between(xp, one, poses[length.first], two, poses[length.second])
+        if one.kind == two.kind == "plane" and length.second < length.first:
+            # of two planes `lengths` has the distance of the later one from the one before, which is turned here
+            found = found._replace(about=poses[length.first][:3, 3])
         direction = poses[length.first][:3, one.axis]
         change = new - value(found, length.quantity)
         poses[length.second] = moved(xp, length.quantity, found, change, direction, poses[length.second])
