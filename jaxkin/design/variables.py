@@ -15,9 +15,13 @@ from jaxkin._arguments import by_name, exact_numbers
 from jaxkin.design.measures import STATIC, lengths_now
 from jaxkin.dimensions.frames import find_profile, locate
 from jaxkin.dimensions.lengths import find_length
+from jaxkin.geometry.characteristic_length import centroid_and_length
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
+
+ROUNDING = 1e-9
+"""Share of the numbers that a start was made of by which it may be outside of its bounds, and is moved onto them."""
 
 DesignVector = Float[np.ndarray | Array, " variables"]
 
@@ -145,10 +149,13 @@ def variables(
     sense."""
     bounded: list[_Bounded] = []
     fixed: dict[Any, Any] = {}
+    _, size = centroid_and_length(np.concatenate([joint.frames_1[:, :3, 3] for joint in mechanism.all_joints]), np)
     for key, bounds in by_name(lengths, "lengths", "{('coupler', 'B', 'C'): (3.0, 5.0)}").items():
         length = find_length(mechanism.linkage, key)
         (now,) = lengths_now(mechanism, [key])
-        found = _entry("lengths", key, _free(f"length {key!r}", bounds, now))
+        found = _entry(
+            "lengths", key, _free(f"length {key!r}", bounds, now), size=1.0 if length.quantity == "angle" else size
+        )
         signed = length.quantity in ("offset", "pitch") or any(f.kind == "plane" for f in length.body)
         if length.quantity == "angle" and (np.any(found.lower < 0) or np.any(found.upper > np.pi)):
             given = f"{float(found.lower):.6g} to {float(found.upper):.6g}"
@@ -158,7 +165,7 @@ def variables(
         bounded.append(found)
     for key, bounds in by_name(points, "points", "{'A': (lower, upper)}").items():
         now = _point_now(mechanism, key)
-        bounded.append(_entry("points", key, _free(f"point {key!r}", bounds, now)))
+        bounded.append(_entry("points", key, _free(f"point {key!r}", bounds, now), size=size))
     for key, given in by_name(drive, "driven displacements", "{'A': angles}").items():
         if isinstance(given, Free):
             bounded.append(_entry("inputs", key, given, f"drive {key!r}"))
@@ -229,11 +236,12 @@ def _free(what: str, bounds: Any, now: Any) -> Free:
     return Free(now, lower, upper)
 
 
-def _entry(group: str, key: Any, free: Free, what: str = "") -> _Bounded:
+def _entry(group: str, key: Any, free: Free, what: str = "", size: float = 0.0) -> _Bounded:
     """Make a variable of a group ("lengths", "points", "inputs", "extras") with its start and its bounds.
 
-    A start outside of its bounds by rounding is moved onto them. Raises ValueError for numbers of different shapes,
-    bounds in the wrong order, a start beyond them, and NaN and infinity; `what` begins the message.
+    A start outside of its bounds by rounding is moved onto them: of numbers as large as the bounds, and of those of the
+    mechanism, of this `size` in the same unit, that the start was measured with. Raises ValueError for numbers of
+    different shapes, bounds in the wrong order, a start beyond them, and NaN and infinity; `what` begins the message.
     """
     what = what or f"{group[:-1]} {key!r}"
     try:
@@ -245,7 +253,7 @@ def _entry(group: str, key: Any, free: Free, what: str = "") -> _Bounded:
         raise ValueError(f"{what}: start and bounds must be finite numbers, got {_said(start, lower, upper)}")
     if np.any(lower > upper):
         raise ValueError(f"{what}: the lower bound is above the upper one, {_said(start, lower, upper)}")
-    slack = 1e-9 * (1 + np.abs(upper) + np.abs(lower))
+    slack = ROUNDING * (size + np.abs(upper) + np.abs(lower))
     if np.any(start < lower - slack) or np.any(start > upper + slack):
         raise ValueError(
             f"{what}: the bounds exclude the start, {_said(start, lower, upper)}; widen them, or give another start as "

@@ -10,7 +10,8 @@ import pytest
 import jaxkin as jk
 from jaxkin import design
 from jaxkin.design import result
-from reference.mechanisms import planar_fourbar
+from jaxkin.design.variables import variables
+from reference.mechanisms import fourbar_through, planar_fourbar
 
 TURN = np.linspace(0.0, 2 * np.pi, 24, endpoint=False)
 POINT = (30.0, 60.0, 0.0)
@@ -175,6 +176,18 @@ def test_refusals(name):
     given, said = BAD[name]
     with pytest.raises(ValueError, match=said):
         jk.optimize(quality, START, **{"drive": {"A": TURN}, **given})
+
+
+@pytest.mark.parametrize("unit", [1e-6, 1.0, 1e6])
+def test_a_start_is_within_its_bounds_in_any_unit(unit):
+    """Rounding of what is measured is moved onto the bounds; a hundred-thousandth of it is no rounding, and was taken
+    for some where numbers are small, as of millimetres in kilometres."""
+    mechanism = fourbar_through(*unit * np.array([(0.0, 0.0), (21.6, 33.7), (115.0, 78.6), (100.0, 0.0)]))
+    crank = float(mechanism.lengths[CRANK])
+    chosen = variables(mechanism, {"A": TURN}, {CRANK: (crank * (1 + 1e-12), 2 * crank)}, {}, {}, {})
+    assert chosen.start[0] == chosen.lower[0]
+    with pytest.raises(ValueError, match="the bounds exclude the start"):
+        variables(mechanism, {"A": TURN}, {CRANK: (crank * (1 + 1e-5), 2 * crank)}, {}, {}, {})
 
 
 @pytest.mark.parametrize(
