@@ -110,7 +110,7 @@ def _of_two(joint: Joint, one: Spline, other: Spline, q: Float[np.ndarray, "pose
             points = _placed_second(second, here, there, along)
             wrong = points[_inside(curve, points) != inside]
             if len(wrong):
-                depth[pose] = max(0.0, float(tree.query(wrong)[0].max()) - 2 * sag)
+                depth[pose] = max(0.0, float(_from_chords(curve, tree.query(wrong)[1], wrong).max()) - 2 * sag)
         area = float(np.sum(curve[:, 0] * np.roll(curve[:, 1], -1) - curve[:, 1] * np.roll(curve[:, 0], -1)))
         side = np.sign(area) * (1.0 if inside else -1.0)  # +1 where the second part is to the left of the first curve
     shared = CurveFit(-side * bends[0], side * (bends[1] - bends[0]) * size, depth, size)
@@ -147,6 +147,21 @@ def _placed_second(points: np.ndarray, a: CurvePoint, b: CurvePoint, along: floa
     return np.stack(
         [a.x + a.cos * along_tangent - a.sin * across, a.y + a.sin * along_tangent + a.cos * across], axis=1
     )
+
+
+def _from_chords(curve: np.ndarray, nearest: np.ndarray, points: np.ndarray) -> Float[np.ndarray, " points"]:
+    """Measure how far points are from the chords of a closed curve that meet at its sample `nearest` to each.
+
+    The samples alone would not do: between two of them a point on the curve is half a chord from either.
+    """
+    found = np.full(len(points), np.inf)
+    for after in (0, 1):
+        begin, end = (curve[(nearest + k) % len(curve)] for k in (after - 1, after))
+        chord = end - begin
+        share = np.sum((points - begin) * chord, axis=1) / np.sum(chord**2, axis=1)
+        foot = begin + np.clip(share, 0.0, 1.0)[:, None] * chord
+        found = np.minimum(found, np.linalg.norm(points - foot, axis=1))
+    return found
 
 
 def _inside(polygon: np.ndarray, points: np.ndarray) -> Bool[np.ndarray, " points"]:

@@ -143,6 +143,29 @@ def test_a_round_curve_larger_than_a_hollow_is_told_as_a_roller_is():
 
 
 @pytest.mark.long
+@pytest.mark.parametrize("points", [40, 180])
+def test_a_disc_in_a_round_hollow_passes_through_nothing(points):
+    """It touches the ring that it is in at one point, however far apart the points of both are."""
+    angle = 2 * np.pi * np.arange(points) / points
+    circle = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    mechanism = jk.Mechanism.build(
+        fixed=["ground"],
+        joints=[
+            jk.revolute("shaft", "ground", "ring", point=(0.0, 0.0, 0.0), axis=Z),
+            jk.curve_on_curve(
+                "contact", "ring", "disc", profile=40.0 * circle + [5.0, 0.0], profile2=8.0 * circle, point2=(37, 0, 0)
+            ),
+            jk.prismatic("guide", "ground", "disc", axis=(1, 0, 0)),
+        ],
+    )
+    motion = mechanism.sweep({"shaft": TURN}, throw=True)
+    centre = 5.0 * np.cos(TURN) + np.sqrt(32.0**2 - (5.0 * np.sin(TURN)) ** 2)
+    # splines of so many points are off by R h^4 / 384
+    np.testing.assert_allclose(motion.coordinates["guide"][:, 0], centre - 37.0, atol=40 * angle[1] ** 4 / 100)
+    assert jk.curve_contacts(motion).holds
+
+
+@pytest.mark.long
 def test_what_is_not_known_of_open_curves_is_told():
     """Of an open curve no side is the inside: whether the other curve passes through it is not looked for."""
     along = np.linspace(-20.0, 20.0, 41)
