@@ -110,7 +110,8 @@ def _of_two(joint: Joint, one: Spline, other: Spline, q: Float[np.ndarray, "pose
             points = _placed_second(second, here, there, along)
             wrong = points[_inside(curve, points) != inside]
             if len(wrong):
-                depth[pose] = max(0.0, float(_from_chords(curve, tree.query(wrong)[1], wrong).max()) - 2 * sag)
+                nearest = np.asarray(tree.query(wrong)[1])
+                depth[pose] = max(0.0, float(_from_chords(curve, nearest, wrong).max()) - 2 * sag)
         area = float(np.sum(curve[:, 0] * np.roll(curve[:, 1], -1) - curve[:, 1] * np.roll(curve[:, 0], -1)))
         side = np.sign(area) * (1.0 if inside else -1.0)  # +1 where the second part is to the left of the first curve
     shared = CurveFit(-side * bends[0], side * (bends[1] - bends[0]) * size, depth, size)
