@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import product
 from pathlib import Path
 
@@ -22,12 +23,14 @@ from jaxkin._arguments import by_name, check_known, check_mechanism, one_number,
 from jaxkin._names import counted, listed
 from jaxkin.effects.coupled_turns import coupled_turns
 from jaxkin.effects.determined_drive import check_determined
+from jaxkin.effects.mode_limits import wrap_angles
 from jaxkin.effects.mode_plot import draw_modes
-from jaxkin.effects.mode_search import FoundPoses, PoseFeatures, Starts, find_modes, wrap_angles
+from jaxkin.effects.mode_search import FoundPoses, PoseFeatures, Starts, find_modes
 from jaxkin.effects.pose_plot import save_displacements
 from jaxkin.linkage.closed_loops import closed_loops
 from jaxkin.linkage.coordinates import coordinate, resolve
 from jaxkin.mechanism.drive_plan import DrivenLoopGroup, plan_drive
+from jaxkin.mechanism.joint_limits import excesses, with_limited
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mobility.loop_freedoms import loop_freedoms
@@ -60,7 +63,10 @@ class AssemblyMode:
 
     @property
     def coordinates(self) -> Mapping[str, Float[Array, " _"]]:
-        """Displacements of each joint from the assembled pose: radians, and lengths of the mechanism."""
+        """Displacements of each joint from the assembled pose: radians, and lengths of the mechanism.
+
+        An angle is between -pi and pi, or some full turns from there, where it is within the limits of its joint.
+        """
         return {joint: rows[self.index] for joint, rows in self.modes.motion.coordinates.items()}
 
     @property
@@ -80,7 +86,7 @@ class AssemblyModes:
     inputs: Mapping[str, float]
     """The given displacements by "joint.coordinate", radians and lengths of the mechanism."""
     motion: Motion
-    """One pose a mode: the first is CLOSED where it is that of the assembled pose, all others are JUMPED."""
+    """One pose a mode: the first is CLOSED, or LIMITED, where it is that of the assembled pose; others are JUMPED."""
     signs: tuple[str, ...]
     """For each mode a plus or minus for each group of loops with a formula."""
     found: tuple[int, ...]
@@ -110,7 +116,15 @@ class AssemblyModes:
     @property
     def assembled(self) -> bool:
         """Whether "mode 1" is the one to which the drive moves the mechanism from its assembled pose."""
-        return len(self) > 0 and int(self.motion.status[0]) == Status.CLOSED.value
+        return len(self) > 0 and bool(self.motion.closed[0])
+
+    @cached_property
+    def beyond_limits(self) -> Mapping[str, Float[np.ndarray, " modes"]]:
+        """How far coordinates are beyond the limits of their joints, by "joint.coordinate": radians or lengths.
+
+        As `motion.beyond_limits`, of all modes: above 0 beyond the highest displacement, below 0 beyond the lowest.
+        """
+        return excesses(self.motion, np.ones(len(self), bool))
 
     @property
     def chance_of_more(self) -> float:
@@ -133,11 +147,13 @@ class AssemblyModes:
         lines = [head]
         if not len(self):
             return f"{head}; the loops cannot close there" if self.complete else head
-        rows = [("", "signs", "found", "residual", "")]
+        rows = [("", "signs", "found", "residual", "", "")]
         for number, (name, signs) in enumerate(zip(self.names, self.signs, strict=True)):
             said = "of the assembled pose" if number == 0 and self.assembled else ""
             found = str(self.found[number]) if self.found else ""
-            rows.append((name, signs, found, f"{float(self.motion.residual[number]):.1e}", said))
+            over = listed([joint for joint, far in self.beyond_limits.items() if far[number]])
+            limits = f"beyond the limits of {over}" if over else ""
+            rows.append((name, signs, found, f"{float(self.motion.residual[number]):.1e}", said, limits))
         columns = [column for column in zip(*rows[: MAX_ROWS + 1], strict=True) if any(column[1:])]
         widths = [max(map(len, column)) for column in columns]
         for row in zip(*columns, strict=True):
@@ -186,7 +202,8 @@ def assembly_modes(
     Where each group of loops has a formula (see `mechanism.plan`), both of its poses are computed: the modes are
     complete. Elsewhere the loops are closed from `tries` random starts, the same ones for the same `seed`, and the
     result tells how many led to each mode: one that was found once suggests that there are more. Poses that differ by
-    idle freedoms, such as the spin of a rod between two balls, are one mode. Where a coupling ties an angle of a loop
+    idle freedoms, such as the spin of a rod between two balls, are one mode. Modes beyond the limits of joints are
+    there, too, and told (`beyond_limits`). Where a coupling ties an angle of a loop
     to what does not make whole turns with it, such as a rack, each full turn is a mode of its own: there is no end of
     them, and only some near the assembled pose are found. Loops that the drive does not move stay.
     A mode whose `motion.sigma_min` is zero is singular: it may stand for a continuum of poses.
@@ -264,15 +281,9 @@ def _combined(
     if assembled:
         status[:1] = Status.CLOSED.value
     wrap_angles(mechanism, rows, set(given), int(assembled))
-    motion = Motion(
-        mechanism,
-        {name: jnp.full(len(which), value, float) for name, value in given.items()},
-        tuple(jnp.asarray(row, float) for row in rows),
-        jnp.asarray(status),
-        jnp.asarray(residual, float),
-        options=starts.options,
-        swept=False,
-    )
+    inputs = {name: jnp.full(len(which), value, float) for name, value in given.items()}
+    poses = tuple(jnp.asarray(row, float) for row in rows), jnp.asarray(status), jnp.asarray(residual, float)
+    motion = with_limited(Motion(mechanism, inputs, *poses, options=starts.options, swept=False))
     from_starts = [number for number, found in enumerate(searched) if not found.by_formulas]
     if not from_starts:
         return AssemblyModes(given, motion, tuple(signs), (), True, 0)

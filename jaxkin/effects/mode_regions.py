@@ -2,8 +2,8 @@
 
 A mechanism may have several closed poses for the same inputs on one sheet: a path around a cusp of its singularity
 curves leads from one to another (Innocenti and Parenti-Castelli, 1998, for planar platforms). Poses are therefore
-spread from node to node of a grid as in `grid_flood`, but as many a node as steps lead to. Poses that steps connect are
-one region, a part of what the literature of parallel robots calls an aspect.
+spread from node to node of a grid as in `grid_flood`, but as many a node as steps lead to, all within the limits of
+joints. Poses that steps connect are one region, a part of what the literature of parallel robots calls an aspect.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from jaxkin._arguments import by_name
 from jaxkin._names import counted, listed, nearest
 from jaxkin.effects.assembly_modes import AssemblyModes
 from jaxkin.effects.grid_steps import GridSteps
+from jaxkin.effects.mode_limits import WithinLimits
 from jaxkin.effects.pose_plot import save_rows
 from jaxkin.effects.region_plot import draw_regions
 from jaxkin.effects.sheets import Sheets
@@ -49,7 +50,7 @@ class ModeRegions:
     """All poses that were found, and the steps between them."""
 
     def connected(self, one: int, other: int) -> bool:
-        """Tell whether a path over the grid leads from one mode to another one past no singular pose."""
+        """Tell whether a path over the grid leads from one mode to another one past no singular pose, within limits."""
         return self._region(one) == self._region(other)
 
     def path(self, one: int, other: int) -> dict[str, Float[np.ndarray, " nodes"]]:
@@ -61,7 +62,7 @@ class ModeRegions:
         if not self.connected(one, other):
             raise ValueError(
                 f"no path over this grid connects {self.modes.names[one]} and {self.modes.names[other]} without a "
-                f"singular pose: .regions are {self.regions}"
+                f"singular pose{self._limits}: .regions are {self.regions}"
             )
         nodes = self.sheets.path(one % len(self.modes), other % len(self.modes))
         given = self.sheets.inputs[:, nodes]
@@ -76,7 +77,10 @@ class ModeRegions:
         ]
         for modes, poses in zip(self.regions, self.poses, strict=True):
             names = listed([self.modes.names[k] for k in modes])
-            said = "connected without a singular pose" if len(modes) > 1 else "not connected with another mode"
+            beyond = any(far[list(modes)].any() for far in self.modes.beyond_limits.values())
+            said = "beyond the limits of joints" if beyond else "not connected with another mode"
+            if len(modes) > 1:
+                said = f"connected without a singular pose{self._limits}"
             most = f", up to {poses.max()} for the same inputs" if poses.max() > 1 else ""
             lines.append(f"  {names}: {said}; {poses.sum()} poses{most}")
         if count > 1:
@@ -96,6 +100,11 @@ class ModeRegions:
         rows = np.array([np.ravel(each) for each in (*grid, *self.poses)], float)
         return save_rows([*self.inputs, *(f"poses of modes {name}" for name in names)], rows, Path(path))
 
+    @property
+    def _limits(self) -> str:
+        """What a path keeps to besides, in words: nothing where no joint has limits."""
+        return " and within the limits of joints" if self.sheets.within.any else ""
+
     def _numbers(self, modes: Sequence[int]) -> list[str]:
         return [self.modes.names[k].removeprefix("mode ") for k in modes]
 
@@ -112,9 +121,10 @@ def mode_regions(modes: AssemblyModes, ranges: Mapping[str, Sequence[float] | np
 
     `modes` are those of `jk.assembly_modes`. `ranges` maps two of their inputs to rising arrays of displacements from
     the assembled pose, radians or lengths; the inputs of the modes are added to them, and the other inputs rest. From
-    each mode all poses to which steps lead past no singular pose are found, as many at a node as there are. Modes that
-    are said to be connected are: `path` gives the inputs of a path. Others may be by a passage that is narrower than
-    the grid, beyond it, or by other inputs.
+    each mode all poses to which steps lead past no singular pose are found, as many at a node as there are, and within
+    the limits of joints at each node: a mode beyond these is connected with none. Modes that are said to be connected
+    are: `path` gives the inputs of a path. Others may be by a passage that is narrower than the grid, beyond it, or by
+    other inputs.
 
     Raises ValueError for names and ranges that make no sense, for a singular mode, for loops with idle freedoms, which
     make a continuum of one pose, and where a node has more poses than a mechanism has.
@@ -139,7 +149,7 @@ def mode_regions(modes: AssemblyModes, ranges: Mapping[str, Sequence[float] | np
     steps = GridSteps(loop_groups, options, max_residual)
     home = [int(np.searchsorted(values, modes.inputs[name])) for name, values in grid.items()]
     shape = len(first), len(second)
-    sheets = Sheets(steps, nodes, shape)
+    sheets = Sheets(steps, nodes, shape, WithinLimits(mechanism, loop_groups, nodes, tuple(modes.inputs)))
     sheets.begin(int(np.ravel_multi_index(home, shape)), modes.motion)
     sheets.spread()
     regions, poses = sheets.regions(len(modes))

@@ -6,7 +6,6 @@ are all poses. Elsewhere damped least-norm steps (`levenberg_marquardt`) go from
 
 from __future__ import annotations
 
-from collections.abc import Container, Sequence
 from functools import partial
 from itertools import product
 from typing import NamedTuple
@@ -16,13 +15,10 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float, Int
 
-from jaxkin.effects.coupled_turns import turning
 from jaxkin.geometry.movements import MOVEMENTS
-from jaxkin.geometry.trig import TURN
 from jaxkin.linkage.host_closure import ClosedLoops, LoopCoordinates
 from jaxkin.linkage.start_ranges import start_ranges
 from jaxkin.mechanism.drive_plan import DrivenLoopGroup
-from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.solve.closed_form.assembled_axes import assembled_axes
 from jaxkin.solve.closed_form.formula_displacements import joint_displacements
 from jaxkin.solve.closed_form.group_formulas import GroupFormula, group_formulas
@@ -285,12 +281,3 @@ def _without_full_turns(
     return np.concatenate(
         [np.cos(poses[:, ~lengths]), np.sin(poses[:, ~lengths]), poses[:, lengths] / units[lengths]], axis=1
     )
-
-
-def wrap_angles(mechanism: Mechanism, rows: Sequence[np.ndarray], driven: Container[str], first: int) -> None:
-    """Bring the angles of modes from `first` on into (-pi, pi], where a full turn is no displacement."""
-    tied = {name for coupling in mechanism.linkage.couplings for name in coupling.coordinates}
-    for joint, row in zip(mechanism.all_joints, rows, strict=True):
-        for k in turning(joint):
-            if (name := joint.full_names[k]) not in driven and name not in tied:
-                row[first:, k] -= TURN * np.ceil(row[first:, k] / TURN - 0.5)

@@ -1,4 +1,7 @@
-"""All poses over a grid of two inputs to which steps lead past no singular pose: several a node, on several sheets."""
+"""All poses over a grid of two inputs to which steps lead past no singular pose: several a node, on several sheets.
+
+No step leads to a pose beyond the limits of joints, nor from one.
+"""
 
 from __future__ import annotations
 
@@ -11,6 +14,7 @@ import numpy as np
 from jaxtyping import Array, Float, Int
 
 from jaxkin.effects.grid_steps import GridSteps, NodeInputs, neighbours
+from jaxkin.effects.mode_limits import WithinLimits
 from jaxkin.effects.mode_search import SAME_POSE, SAME_POSE_SINGLE
 from jaxkin.mechanism.motion import Motion
 from jaxkin.solve.closure.closure import scaled_geometry
@@ -26,8 +30,8 @@ before memory is full."""
 class Sheets:
     """The poses that were found, in the order in which they were, and which of them a step connects."""
 
-    def __init__(self, steps: GridSteps, inputs: NodeInputs, shape: tuple[int, int]) -> None:
-        self.steps, self.inputs, self.shape = steps, inputs, shape
+    def __init__(self, steps: GridSteps, inputs: NodeInputs, shape: tuple[int, int], within: WithinLimits) -> None:
+        self.steps, self.inputs, self.shape, self.within = steps, inputs, shape, within
         self.node: list[int] = []
         """The node of each pose."""
         self.pairs: list[tuple[int, int]] = []
@@ -55,6 +59,8 @@ class Sheets:
     def spread(self) -> None:
         """Step from all poses to the neighbours of their nodes, and on from these, until no more poses are found."""
         newest = np.arange(len(self.node))
+        every = [np.stack(part, axis=-1) for part in zip(*self._states, strict=True)]
+        newest = newest[self.within.of(np.array(self.node, int), every)]
         while len(newest):
             which, end = neighbours(np.array(self.node)[newest], self.shape)
             begin = newest[which]
@@ -63,7 +69,7 @@ class Sheets:
             there = np.array(self.node)[begin]
             found = self.steps.follow(states, self.inputs[:, there], self.inputs[:, end])
             parts, known = [np.asarray(part) for state in found.states for part in state], len(self.node)
-            for number in np.flatnonzero(np.asarray(found.taken)):
+            for number in np.flatnonzero(np.asarray(found.taken) & self.within.of(end, parts)):
                 pose = self._add(int(end[number]), [part[..., number] for part in parts])
                 self.pairs.append((int(begin[number]), pose))
             newest = np.arange(known, len(self.node))

@@ -15,7 +15,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import lax
-from jaxtyping import Array, Float, Int
+from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin._names import counted, listed
 from jaxkin.geometry.movements import is_length
@@ -115,9 +115,14 @@ def _slack(dtype: np.dtype) -> float:
     return max(ROUNDING, ROUNDINGS * float(jnp.finfo(dtype).eps))
 
 
-def excesses(motion: Motion) -> dict[str, Float[np.ndarray, " poses"]]:
-    """Measure how far each coordinate is beyond its limits at each pose: see `Motion.beyond_limits`."""
-    joints, on_branch = motion.mechanism.all_joints, np.asarray(motion.on_branch)
+def excesses(
+    motion: Motion, which: Bool[Array | np.ndarray, " poses"] | None = None
+) -> dict[str, Float[np.ndarray, " poses"]]:
+    """Measure how far each coordinate is beyond its limits at each pose: see `Motion.beyond_limits`.
+
+    At the poses `which`, by default those on the branch; 0 at others.
+    """
+    joints, counted_poses = motion.mechanism.all_joints, np.asarray(motion.on_branch if which is None else which)
     bounds, found = bounds_of(joints), {}
     if not bounds:
         return found
@@ -127,7 +132,7 @@ def excesses(motion: Motion) -> dict[str, Float[np.ndarray, " poses"]]:
         q = np.asarray(motion.displacements[each.joint], float)[:, each.coordinate]
         slack = _slack(motion.displacements[each.joint].dtype) * (float(size) if each.length else 1.0)
         over = np.maximum(q - each.high, 0.0) - np.maximum(each.low - q, 0.0)
-        over = np.where(on_branch & (np.abs(over) > slack), over, 0.0)
+        over = np.where(counted_poses & (np.abs(over) > slack), over, 0.0)
         if over.any():
             found[joints[each.joint].full_names[each.coordinate]] = over
     return found

@@ -7,6 +7,8 @@ they are in one piece. Where the ranges are wide, two pieces are left, as Husty 
 this kind, three of the six modes in each.
 """
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.ndimage import label
@@ -16,7 +18,7 @@ from scipy.sparse.csgraph import connected_components
 import jaxkin as jk
 from reference import planar
 from reference.mechanisms import Z, planar_fourbar
-from reference.planar_robots import BASE, LEGS, PLATFORM, connected, five_bar, three_rpr
+from reference.planar_robots import BASE, LEGS, PLATFORM, connected, elbows, five_bar, three_rpr, tip
 
 ANGLES = 900
 """Values of each angle: the narrowest passage of the ranges below is some thirty of them wide."""
@@ -114,6 +116,29 @@ def test_the_two_modes_of_a_five_bar_are_never_connected():
     assert found.regions == ((0,), (1,)) and "not connected with another mode" in str(found)
     for poses in found.poses:
         np.testing.assert_array_equal(poses, connected(grid, 72.0))
+
+
+@pytest.mark.long
+def test_no_region_goes_beyond_the_limits_of_a_joint():
+    """An elbow of the five-bar has limits: the nodes to which lines of the grid lead from node to node within these.
+
+    Its angle is known by the closed form. That of the other mode is beyond: a region of its own, of one pose.
+    """
+    grid, low, high = np.linspace(-3.1, 3.1, 13), -1.0, 0.8
+    robot = five_bar(86.0)
+    joints = [replace(joint, limits=((low, high),)) if joint.name == "B" else joint for joint in robot.all_joints]
+    modes = jk.assembly_modes(jk.Mechanism.build(fixed=["ground"], joints=joints), {"A": 0.0, "E": 0.0})
+    found = jk.mode_regions(modes, {"A": grid, "E": grid})
+    left, right = (each.ravel() for each in np.meshgrid(grid, grid, indexing="ij"))
+    rod = tip(left, right, 86.0) - elbows(left, right)[0]
+    elbow = np.arctan2(rod[:, 1], rod[:, 0]) - left
+    elbow = np.angle(np.exp(1j * (elbow - elbow[len(elbow) // 2]))).reshape(13, 13)  # from the assembled pose
+    inside = (elbow >= low) & (elbow <= high)  # nan, where there is no pose, is neither
+    wanted = connected(grid, 86.0, inside)
+    assert 0 < wanted.sum() < connected(grid, 86.0).sum()
+    assert found.regions == ((0,), (1,)) and "mode 2: beyond the limits of joints; 1 poses" in str(found)
+    np.testing.assert_array_equal(found.poses[0], wanted)
+    assert found.poses[1].sum() == 1
 
 
 @pytest.mark.long

@@ -63,13 +63,17 @@ def five_bar(rod: float) -> jk.Mechanism:
     return jk.Mechanism.build(fixed=["ground"], joints=joints)
 
 
-def connected(grid, rod) -> np.ndarray:
-    """Nodes that are connected with the assembled pose along the lines of the grid, through poses that exist."""
+def connected(grid, rod, inside=True) -> np.ndarray:
+    """Nodes that are connected with the assembled pose along the lines of the grid, through poses that exist.
+
+    And through those nodes only that are `inside`.
+    """
     fine = np.linspace(grid[0], grid[-1], FINE * (len(grid) - 1) + 1)
     there = np.isfinite(tip(*(each.ravel() for each in np.meshgrid(fine, fine, indexing="ij")), rod)[:, 0])
     there = there.reshape(len(fine), len(fine))
     lines = np.zeros_like(there)
     lines[::FINE] = lines[:, ::FINE] = True
+    there[::FINE, ::FINE] &= inside
     islands = label(there & lines)[0]
     home = int(np.argmin(np.abs(fine)))
     return islands[::FINE, ::FINE] == islands[home, home]
