@@ -37,8 +37,10 @@ MAX_FORMULAS = 12
 """Most groups whose signs are tried in all combinations, 4096 of them; of more, poses are searched from many starts."""
 STARTS_AT_ONCE = 1024
 """Starts that are followed together: the Jacobians of so many stay within some megabytes."""
-FARTHEST_SLIDE = 2.0
-"""Most a slide is moved at a start, characteristic lengths: a mechanism is some two wide to each side of its middle."""
+FARTHEST_SLIDES = (2.0, 2.0, 4.0, 8.0)
+"""Most a slide is moved at a start, characteristic lengths, for starts in turn: a mechanism is some two wide to each
+side of its middle, but its links in a row, the perimeter of a loop, are eight to ten. From two alone no start found 3
+to 9 of the 12 to 26 modes of random loops with a screw (5 of 6 loops), most of which were said to have no others."""
 SAME_POSE = 1e-6
 """Largest difference of two poses that are one, radians or characteristic lengths: closed poses are right to 1e-9
 where their Jacobian has singular values down to 1e-5."""
@@ -127,7 +129,8 @@ def find_modes(
     if by_formulas:
         poses, residual, names = _by_formulas(loop_group, inputs)
     else:
-        poses, residual = _from_starts(loop_group, inputs, starts, _start_ranges(loop_group, loops))
+        farthest = np.stack([_start_ranges(loop_group, loops, slide) for slide in FARTHEST_SLIDES], axis=1)
+        poses, residual = _from_starts(loop_group, inputs, starts, farthest)
         names = [""] * len(poses)
     (closed,) = np.nonzero(np.isfinite(residual) & (residual <= max_residual))
     poses, residual, names = poses[closed], residual[closed], [names[k] for k in closed]
@@ -222,14 +225,15 @@ def _from_starts(
     loop_group: DrivenLoopGroup,
     inputs: Float[np.ndarray, " driven"],
     starts: Starts,
-    farthest: Float[np.ndarray, " columns"],
+    farthest: Float[np.ndarray, "columns ranges"],
 ) -> tuple[Float[np.ndarray, "poses columns"], Float[np.ndarray, " poses"]]:
-    """Close the loops from random starts: columns moved by up to `farthest`, and balls turned at random."""
+    """Close the loops from random starts: columns moved by up to `farthest`, in turn, and balls turned at random."""
     system, rows, residuals, rng = loop_group.system, [], [], np.random.default_rng(starts.seed)
     size = min(starts.tries, STARTS_AT_ONCE)
+    most = farthest[:, np.arange(size) % farthest.shape[1]]
     for _ in range(-(-starts.tries // size)):
         angles, slides = rng.uniform(-1.0, 1.0, (2, system.columns, size))
-        x = farthest[:, None] * np.where(np.array(system.is_length)[:, None], slides, angles)
+        x = most * np.where(np.array(system.is_length)[:, None], slides, angles)
         turns = rng.normal(size=(len(system.turned_balls), 4, size))
         turns /= np.linalg.norm(turns, axis=1, keepdims=True)
         begun = State(jnp.asarray(x, float), jnp.asarray(turns, float))
@@ -240,8 +244,11 @@ def _from_starts(
     return np.concatenate(rows)[: starts.tries], np.concatenate(residuals)[: starts.tries]
 
 
-def _start_ranges(loop_group: DrivenLoopGroup, loops: ClosedLoops) -> Float[np.ndarray, " columns"]:
-    """Say how far each column of a loop group is moved at a start at most, radians and characteristic lengths."""
+def _start_ranges(loop_group: DrivenLoopGroup, loops: ClosedLoops, slide: float) -> Float[np.ndarray, " columns"]:
+    """Say how far each column of a loop group is moved at a start at most, radians and characteristic lengths.
+
+    `slide` is how far slides are.
+    """
     columns = list(loop_group.columns)
     chains = [loops.chains[joint] for joint, _ in columns]
     pitched = [any(MOVEMENTS[movement].has_pitch for movement in chain.movements) for chain in chains]
@@ -253,7 +260,7 @@ def _start_ranges(loop_group: DrivenLoopGroup, loops: ClosedLoops) -> Float[np.n
         if len(tied) == 2 and not np.any(factors[:, 1:]) and all(place in columns for place in tied):
             couplings.append(([columns.index(place) for place in tied], factors[:, 0]))
     carried = np.array([joint not in in_loops for joint, _ in columns])
-    return start_ranges(np.array(loop_group.system.is_length), pitch, FARTHEST_SLIDE, couplings, carried)
+    return start_ranges(np.array(loop_group.system.is_length), pitch, slide, couplings, carried)
 
 
 @partial(jax.jit, static_argnums=(0, 1))
