@@ -185,7 +185,9 @@ def _periods_within(
 
 def _is_home(curve: MotionCurve, at: CurvePose, features: PoseFeatures) -> bool:
     """Tell whether all parts are in their assembled poses again, but for idle freedoms."""
-    home, there = features.of(np.stack([np.zeros(len(at.q)), at.q]), curve.free)
+    # with the drive at rest: of its own motion and the idle ones together no combination is an idle one alone
+    free = [column for column in curve.free if column != curve.drive]
+    home, there = features.of(np.stack([np.zeros(len(at.q)), at.q]), free)
     return bool(np.abs(home - there).max(initial=0.0) <= SAME_POSE)
 
 

@@ -56,3 +56,49 @@ def test_a_rod_that_spins_locks_nothing(seed):
         # the root of rounding of the closed form, over the slope that it has there
         np.testing.assert_allclose(found.range, wanted, rtol=0, atol=1e-9)
         assert "D" in found.lower.joints and "D" in found.upper.joints
+
+
+def test_a_screw_beside_a_rod_that_spins_does_not_repeat():
+    """A nut takes a rod with it, whose foot is on an arm: after a turn the nut is elsewhere, whatever the rod's spin.
+
+    It ends, after three turns to one side, where the rod no longer reaches: its length is then the least or the largest
+    distance of the ball on the nut from the circle of the foot.
+    """
+    home, pitch, height, arm = 6.0, 0.8, 4.0, 1.5
+    press = jk.Mechanism.build(
+        fixed=["ground"],
+        joints=[
+            jk.screw("screw", "ground", "nut", point=(home, 0, 0), axis=(1, 0, 0), pitch=pitch),
+            jk.spherical("ball", "nut", "rod", point=(home, 1, 0)),
+            jk.spherical("foot", "rod", "arm", point=(0, height - arm, 0)),
+            jk.revolute("arm", "ground", "arm", point=(0, height, 0), axis=(0, 0, 1)),
+        ],
+    )
+    rod = np.hypot(home, height - arm - 1.0)
+
+    def room(turn: float) -> float:
+        x, y, z = home + pitch * turn / (2 * np.pi), np.cos(turn), np.sin(turn)
+        out = np.hypot(x, y - height)
+        return min(rod - np.hypot(out - arm, z), np.hypot(out + arm, z) - rod)
+
+    found = jk.limits(press, "screw")
+    assert not found.full_turn
+    lock = {}
+    for sign in (-1, 1):
+        turn = next(each for each in sign * np.arange(0.0, 60.0, STEP) if room(each) < 0)
+        lock[sign] = brentq(room, turn - sign * STEP, turn, xtol=1e-14)
+    np.testing.assert_allclose(found.range, (lock[-1], lock[1]), rtol=0, atol=1e-9)
+    assert lock[-1] < -4 * np.pi
+
+
+def test_a_rack_behind_a_crank_beside_a_rod_that_spins_ends_it():
+    """The crank turns on and on, and the rack with it to the ends of its way."""
+    mechanism, room = drawn_at_random(10)
+    assert first_lock(room, 1) is first_lock(room, -1) is None
+    rack = jk.prismatic("rack", "ground", "rack", axis=(1, 0, 0), limits=(-30.0, 12.5))
+    tied = jk.Mechanism.build(
+        fixed=["ground"], joints=[*mechanism.all_joints, rack], couplings=[jk.rack("A", "rack", 0.5)]
+    )
+    found = jk.limits(tied, "A")
+    np.testing.assert_allclose(found.range, (-60.0, 25.0), rtol=1e-12)
+    assert found.lower.joints == found.upper.joints == ("rack",)
