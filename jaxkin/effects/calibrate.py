@@ -23,8 +23,9 @@ from jaxkin.solve.options import SolverOptions, options_with
 
 SMALL = 1e-6
 """Change of each unknown alone, over the size of the mechanism or in radians, to see whether the loops still close."""
-PART_OF = 1e-6
-"""An unknown takes part in a direction that the data do not tell where its share of it is larger than this."""
+PART_OF = {64: 1e-6, 32: 1e-3}
+"""An unknown takes part in a direction that the data do not tell where its share of it is larger than this, by the bits
+of numbers: rounding of derivatives over the least singular value that counts would be a hundredth of it."""
 
 
 @dataclass(frozen=True)
@@ -44,8 +45,9 @@ class _Numbers(NamedTuple):
     inputs: tuple[Any, ...]
     """Of the drive, in the order of `Model.driven`."""
     values: tuple[Any, ...]
-    """Those of `Data`, and so are the weights."""
+    """Those of `Data`, and so are weights and middles."""
     weights: tuple[Any, ...]
+    middles: tuple[Any, ...]
     nominal: Nominal
 
     @property
@@ -101,7 +103,7 @@ def calibrate(
     unknowns, nominal = unknowns_of(mechanism, lengths, frames, markers, measured)
     model = Model(unknowns, data.kinds, tuple(driven), options_with(options))
     inputs = tuple(np.asarray(values, float) for values in driven.values())
-    numbers = _Numbers(inputs, data.values, data.weights, nominal)
+    numbers = _Numbers(inputs, data.values, data.weights, data.middles, nominal)
     scales = np.where(unknowns.are_angles(mechanism.linkage), 1.0, extent(mechanism))
 
     def evaluate(scaled: Float[np.ndarray, " unknowns"]):
@@ -116,7 +118,7 @@ def calibrate(
                 f"the loops do not close where {name!r} changes a little: an overconstrained mechanism has no room for "
                 "it; leave it out, or give lengths that keep the mechanism what it is"
             )
-    found = fit(evaluate, np.zeros(len(scales)), iterations)
+    found = fit(evaluate, np.zeros(len(scales)), iterations, _bits())
     return _result(mechanism, model, numbers, scales, found, given_sigma=sigma is not None)
 
 
@@ -128,8 +130,10 @@ def _residuals(model: Model, mechanism: Mechanism, numbers: _Numbers, changes: F
         found, markers = model.unknowns.applied(mechanism, numbers.nominal, changes)
         motion = found.sweep(dict(zip(model.driven, numbers.inputs, strict=True)), options=model.options)
         off = [
-            (weight * kind.residual(motion, value, markers)).ravel()
-            for kind, value, weight in zip(model.kinds, numbers.values, numbers.weights, strict=True)
+            (weight * kind.residual(motion, value, markers, middle)).ravel()
+            for kind, value, weight, middle in zip(
+                model.kinds, numbers.values, numbers.weights, numbers.middles, strict=True
+            )
         ]
         return jnp.concatenate(off), motion.on_branch
 
@@ -154,7 +158,8 @@ def _result(
     Without a `given_sigma` the standard deviation of what was measured is that of the residuals.
     """
     nominal = numbers.nominal
-    singular, directions, rest = told(found.jacobian)
+    bits = _bits()
+    singular, directions, rest = told(found.jacobian, bits)
     if not len(singular):
         raise ValueError("the measured values do not depend on any of the unknowns: they tell nothing about them")
     changes = scales * found.unknowns
@@ -164,7 +169,7 @@ def _result(
     deviation = float(np.sqrt(square / freedom)) if freedom > 0 else np.nan
     scaled = (directions / singular[:, None]).T
     covariance = scales[:, None] * (scaled @ scaled.T) * scales * (1.0 if given_sigma else deviation**2)
-    lost = np.linalg.norm(rest, axis=0) > PART_OF
+    lost = np.linalg.norm(rest, axis=0) > PART_OF[bits]
     covariance[lost] = covariance[:, lost] = np.nan
     names = model.unknowns.names
     residuals, first = {}, 0
@@ -178,7 +183,7 @@ def _result(
         given=nominal.values,
         values=np.where(lost, np.nan, nominal.values + changes),
         covariance=covariance,
-        undetermined=tuple(_named(names, row) for row in readable(rest * scales)),
+        undetermined=tuple(_named(names, row, scales) for row in readable(rest)),
         residuals=residuals,
         deviation=deviation,
         degrees_of_freedom=freedom,
@@ -189,10 +194,24 @@ def _result(
     )
 
 
-def _named(names: Sequence[str], row: Float[np.ndarray, " unknowns"]) -> dict[str, float]:
-    """List the unknowns that take part in a direction, and by how much."""
-    most = np.abs(row).max()
-    return {name: float(each) for name, each in zip(names, row, strict=True) if abs(each) > PART_OF * most}
+def _bits() -> int:
+    """Count the bits of the numbers in which motions are computed: 64, or 32 where x64 is off."""
+    return int(jnp.finfo(jnp.result_type(float)).bits)
+
+
+def _named(
+    names: Sequence[str], row: Float[np.ndarray, " unknowns"], scales: Float[np.ndarray, " unknowns"]
+) -> dict[str, float]:
+    """List the unknowns that take part in a direction of scaled unknowns, and by how much: one that takes the largest
+    part by 1.
+
+    Which take part is told in scaled unknowns, whatever the unit: lengths in micrometres have numbers a million times
+    those of the angles that go with them.
+    """
+    parts = np.abs(row)
+    amounts = row * scales / (row * scales)[parts.argmax()]
+    taken = parts > PART_OF[_bits()] * parts.max()
+    return {name: float(each) for name, each, part in zip(names, amounts, taken, strict=True) if part}
 
 
 def _check_start(reached: Bool[Array, " poses"]) -> None:

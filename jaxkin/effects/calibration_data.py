@@ -37,11 +37,14 @@ class MeasuredQuantity:
     place: JointCoordinate | None = None
     """The joint and its coordinate, by number; None for a target."""
 
-    def residual(self, motion: Motion, measured: Array, markers: Mapping[Target, Any]) -> Float[Array, "poses _"]:
+    def residual(
+        self, motion: Motion, measured: Array, markers: Mapping[Target, Any], middle: Float[np.ndarray | Array, "3"]
+    ) -> Float[Array, "poses _"]:
         """Compute how far the motion is from the measured values: computed less measured, radians and lengths.
 
         Angles differ by less than half a turn. Of rotations it is the rotation vector; the translation of a pose is
-        that of the middle of the joints of its part.
+        that of the `middle` of the joints of its part in the mechanism as it was given: one that moved with the unknown
+        joints would lessen residuals by where they are taken.
         """
         if self.place is not None:
             joint, k = self.place
@@ -53,7 +56,6 @@ class MeasuredQuantity:
         turn = _rotation_vectors(place[:, :3, :3] @ jnp.swapaxes(measured[:, :3, :3], 1, 2))
         if self.key.kind == "orientation":
             return turn
-        middle = middle_of_joints(motion.mechanism.linkage, self.key.part)
         off = place - measured
         return jnp.concatenate([off[:, :3, :3] @ middle + off[:, :3, 3], turn], axis=1)
 
@@ -77,6 +79,9 @@ class Data:
     """Measured values, NaN replaced."""
     weights: tuple[Float[np.ndarray, "poses _"], ...]
     """One over the standard deviation of each number of the residuals; zero where nothing was measured."""
+    middles: tuple[Float[np.ndarray, "3"], ...]
+    """Of a measured pose the point of the part at which its translation is taken, the middle of its joints as given;
+    zeros of what is no pose."""
 
     def check_turns(self, motion: Motion) -> None:
         """Raise ValueError where a measured rotation is half a turn from that of the motion: it may be either way."""
@@ -101,7 +106,7 @@ def data_of(mechanism: Mechanism, measured: Any, sigma: Any, poses: int) -> Data
         raise ValueError("nothing was measured: give coordinates of joints, jk.point, jk.pose or jk.orientation")
     if not poses:
         raise ValueError("nothing was measured: the drive has no poses")
-    kinds, values, weights = [], [], []
+    kinds, values, weights, middles = [], [], [], []
     for key, numbers in given.items():
         kind = _kind(mechanism, key)
         array = _array(kind, numbers, poses)
@@ -113,13 +118,15 @@ def data_of(mechanism: Mechanism, measured: Any, sigma: Any, poses: int) -> Data
         else:
             array = np.where(known, array, 0.0)
         kinds.append(kind)
+        of_pose = isinstance(key, Target) and key.kind == "pose"
+        middles.append(np.asarray(middle_of_joints(mechanism.linkage, key.part)) if of_pose else np.zeros(3))
         values.append(array)
         weights.append(np.broadcast_to(known.reshape(poses, -1), (poses, len(kind.lengths))).astype(float))
     if not any(known.any() for known in weights):
         raise ValueError("nothing was measured: all values are NaN, which stands for values that are missing")
     deviations = _deviations(kinds, sigma)
     scaled = tuple(known / row for known, row in zip(weights, deviations, strict=True))
-    return Data(tuple(kinds), tuple(values), scaled)
+    return Data(tuple(kinds), tuple(values), scaled, tuple(middles))
 
 
 def _kind(mechanism: Mechanism, key: Any) -> MeasuredQuantity:

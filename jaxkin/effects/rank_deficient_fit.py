@@ -17,8 +17,10 @@ Jacobian = Float[np.ndarray, "rows unknowns"]
 Evaluate = Callable[[Float[np.ndarray, " unknowns"]], tuple[Residuals, Jacobian, bool]]
 """Residuals, their derivatives, and whether the residuals are valid there."""
 
-RANK = 1e-9
-"""Singular values of the Jacobian, over the largest, below which nothing is told: derivatives are right to 1e-11."""
+RANK = {64: 1e-9, 32: 1e-4}
+"""Singular values of the Jacobian, over the largest, below which nothing is told, by the bits of its numbers: a hundred
+times the error of derivatives, which are right to 1e-11, and in single precision to 1e-6 (of arms with up to five
+joints)."""
 STEP = 1e-12
 """Steps so small, in scaled unknowns, end the fit."""
 GAIN = 1e-10
@@ -39,20 +41,26 @@ class Fit(NamedTuple):
     converged: bool
 
 
-def told(jacobian: Jacobian) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Decompose a Jacobian: singular values that count, their directions (rows), and the directions that do not."""
+def told(jacobian: Jacobian, bits: int = 64) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Decompose a Jacobian: singular values that count, their directions (rows), and the directions that do not.
+
+    `bits` are those of the numbers that it was computed in, 64 or 32.
+    """
     _, values, directions = np.linalg.svd(jacobian, full_matrices=True)
-    count = int(np.sum(values > RANK * values.max(initial=0.0)))
+    count = int(np.sum(values > RANK[bits] * values.max(initial=0.0)))
     return values[:count], directions[:count], directions[count:]
 
 
-def fit(evaluate: Evaluate, start: Float[np.ndarray, " unknowns"], iterations: int) -> Fit:
-    """Minimise the sum of squares from a start that is valid; unknowns are of similar size."""
+def fit(evaluate: Evaluate, start: Float[np.ndarray, " unknowns"], iterations: int, bits: int = 64) -> Fit:
+    """Minimise the sum of squares from a start that is valid; unknowns are of similar size.
+
+    `bits` are those of the numbers in which residuals and derivatives are computed.
+    """
     unknowns = start
     residuals, jacobian, _ = evaluate(unknowns)
     damping = 0.0
     for number in range(iterations):
-        values, directions, _ = told(jacobian)
+        values, directions, _ = told(jacobian, bits)
         if not len(values):
             return Fit(unknowns, residuals, jacobian, number, True)
         slope = directions @ (jacobian.T @ residuals)
