@@ -264,6 +264,14 @@ def _with_frames(joint: Joint, frames: Mapping[tuple, Any], pitch: Any) -> Joint
     return replace(joint, **sides, pitch=joint.pitch if pitch is None else pitch)
 
 
+def range_of(length: Length) -> tuple[float, float]:
+    """Find the least and the largest value that a length may have: lengths without a sign, and angles, have bounds."""
+    if length.quantity == "angle":
+        return 0.0, float(np.pi)
+    signed = length.quantity in ("offset", "pitch") or "plane" in [feature.kind for feature in length.body]
+    return (-np.inf if signed and length.quantity != "radius" else 0.0), np.inf
+
+
 def _checked(key: LengthName, length: Length, wanted):
     """Check that a new length is a finite number in its range (ValueError); traced numbers are not checked."""
     if traced(wanted):
@@ -279,11 +287,12 @@ def _checked(key: LengthName, length: Length, wanted):
         )
     if not np.isfinite(number):
         raise ValueError(f"length {key!r} must be a finite number, got {number}")
-    if length.quantity == "distance" and number < 0 and "plane" not in [f.kind for f in length.body]:
+    low, high = range_of(length)
+    if length.quantity == "distance" and number < low:
         raise ValueError(f"length {key!r} must not be negative, got {number}: a distance has no direction")
     if length.quantity == "radius" and number <= 0:
         raise ValueError(f"radius {key!r} must be positive, got {number}")
-    if length.quantity == "angle" and not 0 <= number <= np.pi:
+    if length.quantity == "angle" and not low <= number <= high:
         raise ValueError(f"angle {key!r} must be in radians between 0 and pi, got {number}")
     return number
 

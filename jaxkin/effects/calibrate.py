@@ -86,10 +86,10 @@ def calibrate(
     deviation is estimated from the residuals. The covariance is of first order: (J^T J)^-1 with the weighted Jacobian.
 
     The fit takes steps of least norm from the given mechanism, so that it finds the solution near it; one that does
-    not close at a measured pose is no step. Combinations of unknowns that change nothing measured stay as they are, and
-    are named. Raises ValueError for names and shapes that do not fit, a given mechanism that does not close at all
-    measured poses, rotations that are half a turn from it, unknowns that the loops have no room for, data that tell
-    none of the unknowns, and for traced numbers.
+    not close at a measured pose, or makes a length without a sign negative, is no step. Combinations of unknowns that
+    change nothing measured stay as they are, and are named. Raises ValueError for names and shapes that do not fit, a
+    given mechanism that does not close at all measured poses, rotations that are half a turn from it, unknowns that the
+    loops have no room for, data that tell none of the unknowns, and for traced numbers.
     """
     check_mechanism(mechanism, "calibrations")
     iterations = whole_number(iterations, "iterations", 1)
@@ -104,12 +104,14 @@ def calibrate(
     model = Model(unknowns, data.kinds, tuple(driven), options_with(options))
     inputs = tuple(np.asarray(values, float) for values in driven.values())
     numbers = _Numbers(inputs, data.values, data.weights, data.middles, nominal)
+    low, high = unknowns.ranges(mechanism.linkage).T
     scales = np.where(unknowns.are_angles(mechanism.linkage), 1.0, extent(mechanism))
 
     def evaluate(scaled: Float[np.ndarray, " unknowns"]):
         changes = scales * scaled
         rows, slopes, reached = jax.device_get(_residuals(model, mechanism, numbers, changes))
         valid = bool(np.all(reached) and np.isfinite(rows).all() and np.isfinite(slopes).all())
+        valid &= bool(np.all((low <= nominal.values + changes) & (nominal.values + changes <= high)))
         return rows, slopes * scales, valid
 
     for number, name in enumerate(unknowns.names):

@@ -18,7 +18,7 @@ from jaxkin._names import nearest
 from jaxkin._traced import traced
 from jaxkin.dimensions.feature_geometry import shifted, turned
 from jaxkin.dimensions.frames import locate
-from jaxkin.dimensions.lengths import find_length, lengths_now
+from jaxkin.dimensions.lengths import find_length, lengths_now, range_of
 from jaxkin.geometry.pose import frame
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.linkage import Linkage
@@ -76,6 +76,13 @@ class Unknowns:
         found = [find_length(linkage, key).quantity == "angle" for key in self.lengths]
         found += [k > 2 for each in self.frames for k in each.components]
         return (*found, *[False] * (3 * len(self.markers)))
+
+    def ranges(self, linkage: Linkage) -> Float[np.ndarray, "unknowns 2"]:
+        """Find the least and the largest value of each unknown: a length without a sign is not negative."""
+        found = np.tile([-np.inf, np.inf], (len(self.names), 1))
+        for number, key in enumerate(self.lengths):
+            found[number] = range_of(find_length(linkage, key))
+        return found
 
     def applied(self, mechanism: Mechanism, nominal: Nominal, changes: Any) -> tuple[Mechanism, dict[Target, Any]]:
         """Change a mechanism, and say where the markers are on their parts then."""

@@ -12,7 +12,7 @@ from jaxtyping import Float
 
 from jaxkin._arguments import by_name, check_mechanism, whole_number
 from jaxkin._traced import traced
-from jaxkin.dimensions.lengths import find_length, lengths_now
+from jaxkin.dimensions.lengths import find_length, lengths_now, range_of
 from jaxkin.effects.design_batch import DesignMeasure, evaluate, value_and_slopes
 from jaxkin.effects.pin_play import directions_of_play
 from jaxkin.effects.tolerance import Tolerance, as_tolerance, named
@@ -159,10 +159,8 @@ def _nominal(mechanism: Mechanism, stated: Mapping[Any, Tolerance]) -> list[Any]
     if traced(nominal) or not stated:
         return nominal
     for (key, tolerance), now in zip(stated.items(), nominal, strict=True):
-        length = find_length(mechanism.linkage, key)
-        signed = length.quantity in ("offset", "pitch") or "plane" in [feature.kind for feature in length.body]
-        low, high = now - tolerance.limit, now + tolerance.limit
-        if (low < 0 and (not signed or length.quantity == "angle")) or (length.quantity == "angle" and high > np.pi):
+        low, high = range_of(find_length(mechanism.linkage, key))
+        if now - tolerance.limit < low or now + tolerance.limit > high:
             advice = (
                 "axes that are parallel or meet, and points that coincide, deviate to all sides: state a clearance "
                 "there, or move a frame by with_frames in a measure of your own"

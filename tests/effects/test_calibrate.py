@@ -207,6 +207,26 @@ def test_units_change_nothing_and_three_poses_leave_no_freedom():
     np.testing.assert_allclose(without.values, TRUE[1:], rtol=1e-8)
 
 
+@pytest.mark.long
+def test_a_length_ends_at_zero_where_noise_wants_less():
+    """An eccentric of 0.1 mm, drawn with 0.5: the least squares are those of less than none, x = e cos + l by hand."""
+    angles = np.linspace(0, 6, 10)
+    eccentric = jk.Mechanism.build(
+        fixed=["ground"],
+        joints=[
+            jk.revolute("A", "ground", "eccentric", point=(0, 0, 0), axis=Z),
+            jk.revolute("B", "eccentric", "rod", point=(0.5, 0, 0), axis=Z),
+            jk.revolute("C", "rod", "slide", point=(100, 0, 0), axis=Z),
+            jk.prismatic("S", "ground", "slide", point=(100, 0, 0), axis=(1, 0, 0)),
+        ],
+    )
+    measured = 0.1 * (np.cos(angles) - 1) - 0.6 * np.cos(angles)
+    found = jk.calibrate(
+        eccentric, {"A": angles}, {"S": measured}, lengths=[("eccentric", "A", "B"), ("rod", "B", "C")]
+    )
+    assert not found.converged and 0 <= found.values[0] < 1e-6
+
+
 POINT = jk.point("coupler", (60.0, 25.0, 0.0))
 TRANSPOSED = np.tile(np.eye(4), (24, 1, 1)) + np.eye(4)[[3]].T * (1.0, 2.0, 0.0, 0.0)
 """Poses whose translation is in the last row."""
