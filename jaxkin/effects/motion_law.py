@@ -146,8 +146,10 @@ class MotionLaw:
         rises = accumulate((segment.rise for segment in self.segments), initial=self.start)
         for segment, begin, before in zip(self.segments, begins, rises, strict=False):
             u = (time - begin) / segment.duration
+            # far from its segment the powers of u overflow in single precision, and reverse derivatives with them
+            share = jnp.where(jnp.abs(u) <= 2.0, u, 0.0)
             # the value beyond its end would have derivatives there, which a later segment replaces
-            found = jnp.where(u >= 0, before + segment.rise * LAWS[segment.law](u), found)
+            found = jnp.where(u >= 0, before + segment.rise * LAWS[segment.law](share), found)
         return jnp.where(time > self.duration, self.start + sum(segment.rise for segment in self.segments), found)
 
     def __str__(self) -> str:

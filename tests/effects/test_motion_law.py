@@ -1,5 +1,7 @@
 """Motion laws against their published peaks; jerks and screw axes against closed forms."""
 
+from functools import partial
+
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -210,6 +212,15 @@ def test_the_largest_rates_of_a_short_rise_between_long_dwells(law, share, peaks
         found = jk.motion_law([("dwell", 1.0), (law, share, 0.5), ("dwell", 1.0)]).largest()
     expected = [0.5 * peak / share**order for order, peak in enumerate(peaks, start=1)]
     np.testing.assert_allclose(found, expected, rtol=2e-6)
+
+
+@pytest.mark.parametrize("x64", [True, False])
+def test_gradients_far_from_a_short_rise_are_numbers(x64):
+    """Ten million times its duration, to the sixth power, is beyond single precision: in the dwell they are zeros."""
+    with jax.enable_x64(x64):
+        law = jk.motion_law([("4-5-6-7", 1e-3, 1.0), ("dwell", 1e4)])
+        for order in range(3):
+            assert jax.grad(partial(law, order=order))(9e3) == 0.0
 
 
 @pytest.mark.parametrize("poses", [2.5, None, "a", -3])
