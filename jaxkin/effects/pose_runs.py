@@ -65,7 +65,12 @@ def sagitta(run: PoseRun) -> float:
 
 
 def off_between(run: PoseRun, corners: Float[np.ndarray, "corners 3"]) -> float:
-    """Measure how far screw motions between poses are off: a quarter of what a pose is off its neighbours' middle."""
+    """Measure how far screw motions between poses are off: a quarter of what a pose is off its neighbours' middle.
+
+    Two poses alone tell nothing of what lies between them: off by as much as an arc of a quarter turn then.
+    """
+    if len(run.places) == 2:
+        return sagitta(run)
     off = 0.0
     for before, here, after in zip(run.places[:-2], run.moved[1:-1], run.places[2:], strict=True):
         middle = displacement_along(screw_between(before, after), 0.5) @ before

@@ -21,6 +21,8 @@ from jaxkin.effects.pose_runs import PoseRun, off_between, placements, runs_of, 
 from jaxkin.geometry.isosurface import zero_surface
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.signed_distance import BAND, Open, signed_distance
+from jaxkin.joints.kinds import JointKind
+from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
 
 if TYPE_CHECKING:
@@ -39,6 +41,8 @@ OFF = np.sqrt(3.0) + PLACED / 2
 points distances are interpolated, and what sharp edges leave between two placements."""
 WANTED = 0.5
 """Share of the volume above which its bound tells little, as of thin rods."""
+ON_ONE_SCREW = (JointKind.REVOLUTE, JointKind.PRISMATIC, JointKind.SCREW)
+"""Joints whose one coordinate moves a part along a screw motion."""
 MESH_FILES = (".stl", ".ply", ".obj", ".glb")
 """Suffixes of the files that `SweptVolume.save` writes."""
 
@@ -150,7 +154,8 @@ def swept_volume(motion: Motion, part: str, *, resolution: float | None = None) 
     `resolution` is the step of a grid of distances, unit of the mechanism; by default an eightieth of the longest edge
     of the box that the part sweeps. Half of it costs up to sixteen times as much. The way between successive poses is
     filled by screw motions, and `SweptVolume.error` includes how far they are off, as told by each pose between its
-    neighbours. Nothing is swept between two poses of which those between them are not closed.
+    neighbours; two poses alone count as the ends of a quarter turn, and what is hinged to, or slides in, a fixed part
+    moves so exactly. Nothing is swept between two poses of which those between them are not closed.
 
     Runs on the host. Raises ValueError for a part that is not there, has no solid or an open one, for successive poses
     of which one is a quarter turn from the other, for a grid that is too large, and inside `jit`, `vmap` and `grad`.
@@ -188,7 +193,7 @@ def swept_volume(motion: Motion, part: str, *, resolution: float | None = None) 
     mesh = Trimesh(origin + step * points, triangles, process=False)
     alone = Trimesh(*zero_surface(distances), process=False)
     lost = 1.0 - float(alone.volume) * step**3 / solid.volume if len(alone.faces) else 1.0
-    between = max(off_between(run, corners) for run in runs)
+    between = 0.0 if _on_one_screw(motion.mechanism, part) else max(off_between(run, corners) for run in runs)
     off = OFF * step + between + max((face.bulge for face in solid.faces), default=0.0)
     counts = sum(len(run.places) for run in runs), left_out, count
     return SweptVolume(part, mesh, step, off, lost, *counts, field, origin, motion.mechanism.unit)
@@ -209,6 +214,15 @@ def _given(motion: Any, part: str) -> tuple[Part, list[PoseRun], int]:
         raise ValueError(f"no pose of the motion is closed: {motion}")
     places = np.broadcast_to(np.asarray(motion.transforms[part], float), (len(closed), 4, 4))
     return solid, runs_of(places, closed, solid.outermost), int((~closed).sum())
+
+
+def _on_one_screw(mechanism: Mechanism, part: str) -> bool:
+    """Tell whether a part turns about, or slides along, an axis of what is fixed: screw motions are its way then."""
+    fixed = {*mechanism.fixed, part}
+    return any(
+        joint.kind in ON_ONE_SCREW and part in joint.parts and fixed.issuperset(joint.parts)
+        for joint in mechanism.joints.values()
+    )
 
 
 def _step(part: str, resolution: float | None, low: np.ndarray, high: np.ndarray) -> float:

@@ -121,6 +121,18 @@ def test_a_turn_past_poses_that_are_not_closed_is_no_step_of_the_motion(arm):
 
 
 @pytest.mark.long
+def test_the_bound_of_two_poses_holds_what_lies_between():
+    """A ball on the crank pin of the rod, two poses 1.4 rad apart: its circle is farther out than their chord."""
+    pin = 40.0 * np.array([np.cos(1.0), np.sin(1.0), 0.0])
+    ball = np.asarray(trimesh.creation.icosphere(3, radius=SMALL).triangles) + pin
+    mechanism = replace(slider_crank(), solids=(jk.Part("rod", (), ball),))
+    found = jk.swept_volume(mechanism.sweep({"A": np.array([0.0, 1.4])}), "rod")
+    middle = np.array([np.cos(1.7), np.sin(1.7), 0.0])
+    missing = 40.0 + SMALL - (found.mesh.vertices @ middle).max()
+    assert 2.0 < missing < found.error
+
+
+@pytest.mark.long
 def test_a_bound_that_tells_little_says_which_step_to_write():
     """A rod of 2 x 2 mm: with the step that is said, the bound is less than half of its volume."""
     motion = box_on_a_slide((20.0, 2.0, 2.0)).sweep({"P": np.array([0.0, 1.0])})
