@@ -178,7 +178,10 @@ class Tolerances:
             if self.not_closed:
                 lines.append(f"    {self.not_closed} of them do not close")
         if self.wanted is not None and self.within is not None:
-            error = np.sqrt(self.within * (1 - self.within) / len(self.samples))
+            # with two samples more on either side (Agresti and Coull): where all are within, some of many may not be
+            count = len(self.samples) + 4
+            share = (self.within * len(self.samples) + 2) / count
+            error = np.sqrt(share * (1 - share) / count)
             lines.append(f"  yield {100 * self.within:.2f} ± {100 * error:.2f} % within {_interval(self.wanted)}")
         lines.append(f"  {'length' + unit:<{width}}  {'nominal':>10}  {'tolerance':>12}  sensitivity  contribution")
         rows = zip(names, self.nominal_lengths, self.stated, self.dimensions, strict=True)
