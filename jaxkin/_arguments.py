@@ -26,9 +26,20 @@ def check_mechanism(given: Any, what: str) -> None:
 
 
 def check_motion(given: Any, what: str) -> None:
-    """Raise ValueError for what is no motion; `what` is found of it, and begins the message."""
+    """Raise ValueError for what is no motion, or a batch of them; `what` is found of it, and begins the message."""
     if not hasattr(given, "displacements"):
         raise ValueError(f"{what} are those of a motion, mechanism.sweep(drive), got {type(given).__name__}")
+    check_one(what, "one motion", np.shape(given.status)[:-1])
+
+
+def check_one(what: str, given: str, batch: tuple[int, ...]) -> None:
+    """Raise ValueError where what was `given` has the axes of a `batch` in front of its own; `what` is found of it, and
+    begins the message."""
+    if batch:
+        raise ValueError(
+            f"{what} are those of {given}, and this is a batch of {' x '.join(map(str, batch))}, as jax.vmap makes: call "
+            "the function inside of jax.vmap, too, or take one out, jax.tree.map(lambda rows: rows[0], batch)"
+        )
 
 
 def check_known(what: str, call: str, *given: Any) -> None:

@@ -7,7 +7,7 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 
-from jaxkin.geometry.inertial import Inertial
+from jaxkin.geometry.inertial import Inertial, exceeds_sum
 from jaxkin.geometry.pose import Transform
 from jaxkin.io.robot_model import numbers
 from jaxkin.io.sdf_frames import is_true, read_pose
@@ -27,7 +27,7 @@ def inertial(
     """Make the inertial of a link of the place of its centre and axes, and xx, yy, zz, xy, xz, yz of its inertia there.
 
     Files of robots that move well have matrices that no distribution of mass has: the nearest one without negative
-    eigenvalues is taken, and a note says so. None, and a note, for a mass below zero.
+    eigenvalues is taken, others are kept, and a note says so. None, and a note, for a mass below zero.
     """
     if mass < 0:
         notes.append(f"{where}: expected a mass from 0 on, got {mass:g}; it is not taken")
@@ -41,6 +41,11 @@ def inertial(
             "the nearest without negative ones is taken; correct the file"
         )
         matrix = axes * np.maximum(values, 0.0) @ axes.T
+    elif exceeds_sum(values) and values[2] > mass * SMALL**2:
+        notes.append(
+            f"{where}: no body has principal moments of inertia of {', '.join(f'{x:.3g}' for x in values)}, of which "
+            "the largest is above the sum of the others: they are taken as they are; correct the file"
+        )
     turn = place[:3, :3]
     return Inertial(mass, place[:3, 3].copy(), turn @ matrix @ turn.T)
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin._arguments import check_one
 from jaxkin._names import listed
 from jaxkin._traced import traced
 from jaxkin.effects.forces.masses import Masses
@@ -22,7 +23,7 @@ def written_inertials(mechanism: Mechanism, masses: Masses | None) -> dict[str, 
 
     `masses` are those of `jk.masses`; None for what the file says that the mechanism was read from. A fixed part whose
     mass is zero, as `jk.masses` has all that were not given, is left out. Raises ValueError for masses of other parts,
-    and for traced ones.
+    for traced ones, and for a batch of them.
     """
     if masses is None:
         found = {part.name: part.inertial for part in mechanism.solids if part.inertial is not None}
@@ -32,6 +33,7 @@ def written_inertials(mechanism: Mechanism, masses: Masses | None) -> dict[str, 
     elif traced((masses.mass, masses.centre, masses.inertia)):
         raise ValueError("the masses are traced: write the file outside of jit, vmap and grad")
     else:
+        check_one("masses in a file", "one mechanism", masses.batch)
         numbers = zip(*(np.asarray(each, float) for each in (masses.mass, masses.centre, masses.inertia)), strict=True)
         found = {
             name: Inertial(float(mass), centre, inertia)

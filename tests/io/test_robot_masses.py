@@ -237,6 +237,12 @@ def test_a_robot_moves_whatever_its_file_says_of_masses(tmp_path):
     np.testing.assert_allclose(
         found.inertia[found.parts.index("b")], [[1.5, 1.5, 0], [1.5, 1.5, 0], [0, 0, 5]], atol=1e-12
     )
+    larger = hinged(tmp_path, '<mass value="1"/><inertia ixx="1" iyy="1" izz="5"/>')
+    assert "principal moments of inertia of 1, 1, 5, of which the largest is above the sum" in larger.notes[0]
+    found = jk.masses(larger)
+    np.testing.assert_allclose(found.inertia[found.parts.index("b")], np.diag([1.0, 1.0, 5.0]))
+    plate = hinged(tmp_path, '<mass value="1"/><inertia ixx="0.33" iyy="0.33" izz="0.67"/>')
+    assert not any("inertia" in note for note in plate.notes)
 
 
 @pytest.mark.parametrize(

@@ -8,11 +8,20 @@ from typing import Any, NamedTuple
 import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin._arguments import check_motion, numbers, several
+from jaxkin._arguments import check_motion, check_one, numbers, several
 from jaxkin._names import nearest
 from jaxkin._traced import traced
 from jaxkin.effects.forces.friction_of import check_friction
-from jaxkin.effects.forces.given import Applied, Force, JointFriction, JointLoad, Spring, Torque, rows_per_pose
+from jaxkin.effects.forces.given import (
+    Applied,
+    Force,
+    JointFriction,
+    JointLoad,
+    Spring,
+    Torque,
+    batch_of,
+    rows_per_pose,
+)
 from jaxkin.effects.forces.masses import Masses
 from jaxkin.effects.rates import tangents_of
 from jaxkin.joints.joint import JointCoordinate
@@ -76,6 +85,10 @@ def check(motion: Motion, acting: Acting) -> None:
             "the masses are those of another mechanism: its parts or its unit differ; write "
             "jk.masses(motion.mechanism, ...)"
         )
+    if masses is not None:
+        check_one("forces", "the masses of one mechanism", masses.batch)
+    for each in acting.applied:
+        check_one("forces", _name_of(each), batch_of(each))
     if masses is None and not applied:
         raise ValueError("nothing acts: give jk.masses(mechanism, density), or applied=[jk.force(...)], or both")
     poses = len(motion)
@@ -109,8 +122,10 @@ def given_rates(motion: Motion, acting: Acting) -> tuple[Inputs, Inputs] | None:
     return tangents_of(motion, acting.rates), tangents_of(motion, acting.accelerations or {})
 
 
-def _name_of(load: Load) -> str:
+def _name_of(load: Applied) -> str:
     """Name a load in a message."""
+    if isinstance(load, JointFriction):
+        return f"the friction of {load.joint!r}"
     if isinstance(load, Spring):
         return f"the spring of {load.parts[0]!r} and {load.parts[1]!r}"
     return f"the load in {load.coordinate!r}" if isinstance(load, JointLoad) else f"the load on {load.part!r}"

@@ -212,15 +212,22 @@ def _numbers(given: Any, what: str) -> Scalars:
     return found
 
 
-_PER_POSE = {
-    Force: {"vector": 1},
-    Torque: {"vector": 1},
-    Spring: {"stiffness": 0, "length": 0, "damping": 0},
-    JointLoad: {"load": 0, "stiffness": 0, "rest": 0, "damping": 0},
+_AXES: dict[type, dict[str, tuple[int, int]]] = {
+    Force: {"point": (1, 1), "vector": (1, 2)},
+    Torque: {"vector": (1, 2)},
+    Spring: {"points": (2, 2), "stiffness": (0, 1), "length": (0, 1), "damping": (0, 1)},
+    JointLoad: {"load": (0, 1), "stiffness": (0, 1), "rest": (0, 1), "damping": (0, 1)},
+    JointFriction: {"coefficient": (0, 0), "radius": (0, 0), "smooth": (0, 0)},
 }
-"""Kind of load -> names of its numbers, which may have one row a pose, and number of axes of a row."""
+"""Kind of a load -> its numbers, with their axes where they are given once, and at most: one more for rows a pose."""
 
 
 def rows_per_pose(load: Applied) -> list[str]:
     """Name the numbers of a load that are given for each pose."""
-    return [name for name, axes in _PER_POSE[type(load)].items() if np.ndim(getattr(load, name)) > axes]
+    return [name for name, (once, _) in _AXES[type(load)].items() if np.ndim(getattr(load, name)) > once]
+
+
+def batch_of(load: Applied) -> tuple[int, ...]:
+    """Return the axes in front of those that the numbers of a load may have, as `jax.vmap` makes them; () without."""
+    shapes = [np.shape(getattr(load, name))[: -most or None] for name, (_, most) in _AXES[type(load)].items()]
+    return max(shapes, key=len)

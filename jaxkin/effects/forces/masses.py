@@ -11,10 +11,10 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin._arguments import by_name, check_mechanism, check_motion, one_number
+from jaxkin._arguments import by_name, check_mechanism, check_motion, check_one, one_number
 from jaxkin._names import closest, match_parts, nearest
 from jaxkin._traced import traced
-from jaxkin.geometry.inertial import of_density_one
+from jaxkin.geometry.inertial import exceeds_sum, of_density_one
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.units import METRES
 from jaxkin.mechanism.mechanism import Mechanism
@@ -77,9 +77,14 @@ class Masses:
     """Unit of the lengths."""
 
     @property
-    def total(self) -> Float[Array, ""]:
+    def batch(self) -> tuple[int, ...]:
+        """Axes in front of that of the parts, where `jax.vmap` made several masses at once; () of one mechanism."""
+        return np.shape(self.mass)[:-1]
+
+    @property
+    def total(self) -> Float[Array, "*batch"]:
         """Sum of all masses, kilograms."""
-        return jnp.sum(self.mass)
+        return jnp.sum(self.mass, axis=-1)
 
     def at(self, motion: Motion, index: int) -> Masses:
         """Move the masses with their parts to pose `index` of a motion: those of `motion.mechanism.at(motion, index)`.
@@ -87,6 +92,7 @@ class Masses:
         Raises ValueError for the motion of a mechanism with other parts.
         """
         check_motion(motion, "masses in another pose")
+        check_one("masses in another pose", "the masses of one mechanism", self.batch)
         if motion.mechanism.parts != self.parts:
             raise ValueError("the motion is that of a mechanism with other parts than the masses have")
         moved = jnp.stack([motion.transforms[part][index] for part in self.parts])
@@ -95,6 +101,8 @@ class Masses:
         return replace(self, centre=centre, inertia=turned @ self.inertia @ turned.swapaxes(1, 2))
 
     def __str__(self) -> str:
+        if self.batch:
+            return f"Masses of {len(self.parts)} parts, a batch of {' x '.join(map(str, self.batch))}"
         width = max(map(len, self.parts), default=0)
         lines = [f"Masses of {len(self.parts)} parts, {float(self.total):.6g} kg in all, centres in {self.unit or 'm'}"]
         for part, mass, centre, inertia in zip(self.parts, self.mass, self.centre, self.inertia, strict=True):
@@ -261,11 +269,17 @@ def _check_inertia(name: str, inertia: Any) -> None:
     """Raise ValueError for known numbers that no distribution of mass has."""
     if traced(inertia):
         return
-    size = np.abs(inertia).max()
-    if np.abs(inertia - inertia.T).max() > 1e-9 * size or np.linalg.eigvalsh(inertia).min() < -1e-9 * size:
+    size, moments = np.abs(inertia).max(), np.linalg.eigvalsh(inertia)
+    if np.abs(inertia - inertia.T).max() > 1e-9 * size or moments.min() < -1e-9 * size:
         raise ValueError(
             f"the inertia of {name!r} is no inertia of a part: its matrix must be symmetric, without negative "
             f"eigenvalues, got {np.asarray(inertia).tolist()}"
+        )
+    if exceeds_sum(moments):
+        raise ValueError(
+            f"the inertia of {name!r} is no inertia of a part: none of its principal moments may be above the sum of "
+            f"the other two, got {', '.join(f'{x:.4g}' for x in moments)}; a part that turns about one axis only needs "
+            f"one number, inertia={moments[2]:.4g}"
         )
 
 

@@ -115,10 +115,31 @@ def test_an_inertia_that_is_no_number_is_told_with_its_part():
         jk.masses(pendulum(box()), given={"arm": jk.Mass(1.0, (0, 0, 0), "heavy")})
 
 
+@pytest.mark.parametrize("turn", [TURN, rotation(unit(np.array([1.0, 2.0, -0.5])), 0.8)])
+def test_an_inertia_whose_moments_no_body_has_is_refused_and_the_advice_moves_a_planar_part_alike(turn):
+    """No moment is above the sum of the others; a plate with two digits, 0.33, 0.33 and 0.67, is within rounding."""
+    mechanism = planar_fourbar()
+
+    def masses(inertia):
+        own = jk.Mass(1.0, (60.0, 50.0, 0.0), inertia)
+        return jk.masses(mechanism, given={"crank": 0, "coupler": own, "rocker": 0})
+
+    with pytest.raises(ValueError, match=r"sum of the other two, got 1, 1, 5; .* one number, inertia=5"):
+        masses(turn @ np.diag([1.0, 1.0, 5.0]) @ turn.T)
+    with pytest.raises(ValueError, match="one number, inertia=5"):
+        masses(np.diag([0.0, 0.0, 5.0]))
+    masses(turn @ np.diag([0.33, 0.33, 0.67]) @ turn.T)
+    motion = mechanism.sweep({"A": np.linspace(0.0, 1.0, 3)})
+    ball, body = (
+        jk.drive_forces(motion, masses(each), rates={"A": 3.0}).forces["A.phi"] for each in (5.0, np.diag([4, 3, 5.0]))
+    )
+    np.testing.assert_allclose(ball, body, rtol=1e-9)
+
+
 def test_masses_move_with_their_parts_to_another_assembled_pose():
     """The forces there are those of the pose from which it was assembled."""
     mechanism = planar_fourbar()
-    own = jk.Mass(2.0, centre=(60.0, 50.0, 7.0), inertia=np.diag([1e-3, 2e-3, 4e-3]))
+    own = jk.Mass(2.0, centre=(60.0, 50.0, 7.0), inertia=np.diag([1e-3, 2e-3, 2.5e-3]))
     masses = jk.masses(mechanism, given={"crank": own, "coupler": own, "rocker": 0})
     motion = mechanism.sweep({"A": np.linspace(0.0, 2.0, 5)})
     moved, there = mechanism.at(motion, 3), masses.at(motion, 3)
