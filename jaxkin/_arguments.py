@@ -37,8 +37,8 @@ def check_one(what: str, given: str, batch: tuple[int, ...]) -> None:
     begins the message."""
     if batch:
         raise ValueError(
-            f"{what} are those of {given}, and this is a batch of {' x '.join(map(str, batch))}, as jax.vmap makes: call "
-            "the function inside of jax.vmap, too, or take one out, jax.tree.map(lambda rows: rows[0], batch)"
+            f"{what} are those of {given}, and this is a batch of {' x '.join(map(str, batch))}, as jax.vmap makes: "
+            "call the function inside of jax.vmap, too, or take one out, jax.tree.map(lambda rows: rows[0], batch)"
         )
 
 
