@@ -40,6 +40,20 @@ def test_orthonormal_rows_are_made_by_the_pseudoinverse(rows, columns):
         np.testing.assert_allclose(orthonormal.T @ made_by, inverse, atol=allowed * np.abs(inverse).max(initial=0.0))
 
 
+@pytest.mark.parametrize(("rows", "columns"), [(4, 3), (7, 6), (9, 3), (12, 6), (25, 12)])
+@pytest.mark.parametrize("apart", [1e-9, 1e-8, 1e-6])
+def test_rows_that_nearly_depend_on_others_do_not_spoil_what_later_rows_say_better(rows, columns, apart):
+    """As of two hinges on axes that are 1e-7 apart. The matrix is well-conditioned: tolerance of rounding times 1e4."""
+    rng = np.random.default_rng(rows)
+    matrix, right = rng.normal(size=(rows, columns, POSES)), rng.normal(size=rows)
+    matrix[2] = matrix[0] - 2 * matrix[1] + apart * matrix[2]
+    found = jax.jit(orthonormal_rows)(matrix)
+    for pose in range(POSES):
+        orthonormal, made_by = (np.asarray(each)[..., pose] for each in (found.rows, found.made_by))
+        least = np.linalg.lstsq(matrix[..., pose], right)[0]
+        np.testing.assert_allclose(orthonormal.T @ (made_by @ right), least, atol=1e-11 * np.abs(least).max() * rows)
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("n", [1, 3, 4, 6, 17, 30])
 def test_inverse_roots_are_lower_and_make_the_matrix_one(n):

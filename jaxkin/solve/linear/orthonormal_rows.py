@@ -1,7 +1,7 @@
 """Make the rows of many small matrices orthonormal, and find which rows depend on others.
 
-By the modified method of Gram and Schmidt, each row in turn; what is done to the rows A is done to a unit matrix beside
-them. So A becomes Q = T A, whose rows are orthonormal, and dependent rows leave the combinations N of rows that vanish,
+By the modified method of Gram and Schmidt, of the rows that are left always the largest; what is done to the rows A is
+done to a unit matrix beside them. So A becomes Q = T A, whose rows are orthonormal, and dependent rows leave the combinations N of rows that vanish,
 N A = 0. Errors grow with the condition of A, and not with its square, as they do by way of A A^T.
 """
 
@@ -18,6 +18,11 @@ from jaxkin.solve.linear.gram import Matrix, product, row_products
 NEGLIGIBLE = 0.6
 """Power of rounding: a row counts as dependent where less than this is left of it, over the largest row. 4e-10 in
 float64: above the errors of poses, 1e-12, and below what is of use as a lever."""
+
+WEAK = 0.25
+"""Power of rounding: T counts as large where one of its entries is more than one over this, for rows of length one:
+8,000 in float64. Rows that nearly depend on those before, as of two hinges on axes 1e-7 apart, make it so where halves
+do not choose the largest row of all: then rows that contradict each other, by no more, have solutions of any size."""
 
 MAX_ROWS_IN_TURN = 8
 """Largest number of rows of which each is treated in turn. More are halved first, which turns most of the work into
@@ -40,9 +45,13 @@ def orthonormal_rows(matrix: Matrix) -> OrthonormalRows:
     if not len(matrix):
         return OrthonormalRows(matrix, matrix[:, :0], matrix[:, :0])
     largest = jnp.max(jnp.sum(matrix * matrix, axis=1), axis=0, initial=0.0)
-    found = _halved(matrix, float(jnp.finfo(matrix.dtype).eps) ** (2 * NEGLIGIBLE) * largest)
+    rounding = float(jnp.finfo(matrix.dtype).eps)
+    least = rounding ** (2 * NEGLIGIBLE) * largest
+    found = _halved(matrix, least)
     if len(matrix) <= MAX_ROWS_IN_TURN:
         return found
+    large = jnp.max(found.made_by**2, axis=(0, 1)) * largest > rounding ** (-2 * WEAK)
+    found = lax.cond(jnp.any(large), lambda: _in_turn(matrix, least), lambda: found)
     # halves do not make each other's combinations orthonormal, which few mechanisms have
     return lax.cond(jnp.any(found.vanishing != 0), _with_orthonormal_combinations, lambda found: found, found)
 
@@ -76,26 +85,28 @@ def _with_orthonormal_combinations(found: OrthonormalRows) -> OrthonormalRows:
 
 
 def _in_turn(matrix: Matrix, least: Float[Array, " poses"]) -> OrthonormalRows:
-    """Make one row after the other orthonormal; a row whose square is not above `least` depends on those before."""
+    """Make rows orthonormal, in each pose the largest of those that are left after the ones before; once its square is
+    not above `least`, all that are left depend on those before."""
     count, columns, poses = matrix.shape
     unit = jnp.broadcast_to(jnp.eye(count, dtype=matrix.dtype)[..., None], (count, count, poses))
     beside = jnp.arange(columns + count) >= columns
 
-    def step(number: Any, given: tuple[Array, Array]) -> tuple[Array, Array]:
-        each, kept = given
-        own = lax.dynamic_index_in_dim(each, number, keepdims=False)
-        stays = jnp.sum(own[:columns] ** 2, axis=0) > least
+    def step(_: Any, given: tuple[Array, Array, Array]) -> tuple[Array, Array, Array]:
+        each, kept, left = given
+        squares = jnp.where(left, jnp.sum(each[:, :columns] ** 2, axis=1), -1.0)
+        here = jnp.arange(count)[:, None] == jnp.argmax(squares, axis=0)
+        own = jnp.sum(jnp.where(here[:, None], each, 0.0), axis=0)
+        stays = jnp.max(squares, axis=0) > least
         # a dependent row is a combination of rows that vanishes: these are made orthonormal by themselves
         lead = jnp.where(beside[:, None] ^ stays, own, 0.0)
         over = 1.0 / jnp.sqrt(jnp.sum(lead * lead, axis=0))
         own = jnp.where(beside[:, None] | stays, own, 0.0) * over
-        here = (jnp.arange(count) == number)[:, None]
         along = jnp.where(here, 0.0, jnp.sum(each * (lead * over), axis=1))
         each = jnp.where(here[:, None], own, each - along[:, None] * own)
-        return each, kept | (here & stays)
+        return each, kept | (here & stays), left & ~here
 
-    begun = jnp.concatenate([matrix, unit], axis=1), jnp.zeros((count, poses), bool)
-    each, kept = lax.fori_loop(0, count, step, begun)
+    begun = jnp.concatenate([matrix, unit], axis=1), jnp.zeros((count, poses), bool), jnp.ones((count, poses), bool)
+    each, kept, _ = lax.fori_loop(0, count, step, begun)
     kept = kept[:, None]
     made_by = each[:, columns:]
     return OrthonormalRows(each[:, :columns], jnp.where(kept, made_by, 0.0), jnp.where(kept, 0.0, made_by))
