@@ -8,7 +8,7 @@ from reference.mechanisms import Z
 
 
 def test_a_roller_whose_hinge_misses_its_centre_by_rounding():
-    """A profile through points of a circle is off the circle: the roller was moved by 5e-6 mm, and its hinge was not."""
+    """A profile through points of a circle is off it: the roller was moved by 5e-6 mm, and its hinge was not."""
     centre = (8 + 31 * 0.6, 31 * 0.8, 0.0)
     mechanism = jk.Mechanism.build(
         fixed=["ground"],
