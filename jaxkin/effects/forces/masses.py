@@ -133,7 +133,8 @@ def masses(
     names the part. Fixed parts need no mass.
 
     Works inside `jit` and `grad` with respect to densities and given masses. Raises ValueError for parts of which no
-    mass can be found, with what to write; for solids that are open, and for unknown parts and materials.
+    mass can be found, with what to write; for solids that are open, inertias that no body has, and unknown parts and
+    materials.
     """
     check_mechanism(mechanism, "masses")
     known = dict(by_name(given or {}, "given masses", "{'rod': jk.Mass(0.3, centre=(10, 0, 0))}"))
