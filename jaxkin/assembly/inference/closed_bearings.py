@@ -34,7 +34,12 @@ _SIZES = """
 67 to 69 up to 60 mm bore, miniature bearings open and with shields, and inch series R; others are not told."""
 
 
-SIZES: Float[np.ndarray, "sizes 3"] = np.array([row.split() for row in _SIZES.replace("\n", " ").split(";")], float)
+def sizes_of(table: str) -> Float[np.ndarray, "sizes 3"]:
+    """Read a table of sizes: bore, outside diameter and width, with semicolons between."""
+    return np.array([row.split() for row in table.replace("\n", " ").split(";")], float)
+
+
+SIZES = sizes_of(_SIZES)
 """The same as an array."""
 
 
@@ -44,11 +49,11 @@ def closed_bearings(parts: Sequence[Part], bores: Mapping[str, Sequence[Bore]], 
     `bores` are the bores and pins of each part by its name, and `metre` is the unit of lengths in metres.
     """
     rings = [ring for part in parts if (ring := ring_of(part, bores[part.name])) is not None]
-    return [ring for ring in rings if ring.plain and _is_catalogued(ring, metre / 1e-3)]
+    return [ring for ring in rings if ring.plain and is_catalogued(ring, metre / 1e-3, SIZES)]
 
 
-def _is_catalogued(ring: Ring, millimetres: float) -> bool:
-    """Tell whether a ring has one of `SIZES`; its lengths are in units of so many millimetres."""
+def is_catalogued(ring: Ring, millimetres: float, sizes: Float[np.ndarray, "sizes 3"]) -> bool:
+    """Tell whether a ring has one of the sizes of a table; its lengths are in units of so many millimetres."""
     low, high = reach_of(ring, ring.hole)
     size = millimetres * np.array([2 * ring.hole.radius, 2 * ring.outside.radius, high - low])
-    return bool(np.any(np.all(np.abs(size / SIZES - 1) <= SAME_SIZE, axis=1)))
+    return bool(np.any(np.all(np.abs(size / sizes - 1) <= SAME_SIZE, axis=1)))

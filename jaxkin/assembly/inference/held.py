@@ -56,12 +56,15 @@ def _is_tight(known: Known, stack: Stack) -> bool:
 
 def bolted_bodies(known: Known, every: Sequence[Stack]) -> list[Inference]:
     """Find bodies that have two or more parallel axes in common: what only touches a fastener, as a lever does that
-    pushes pins, has no hole on its axis, and what slides on guide pins meets no face that would clamp it."""
+    pushes pins, has no hole on its axis, and what slides on guide pins, or has a linear bearing on them, meets no face
+    that would clamp it."""
     body = known.body
 
     def of_bodies(stack: Stack) -> Stack:
         own = {body[part] for part in stack.fasteners}
-        held = [p for p in stack.held if known.bores_on(p, stack.axis) or body[p] in own]
+        sliding = {body[part] for part in stack.held if part in known.measured.linear_bearings} - own
+        held = [p for p in stack.held if body[p] not in sliding]
+        held = [p for p in held if known.bores_on(p, stack.axis) or body[p] in own]
         held = [part for part in held if body[part] in own or not _is_guided(known, stack, part, held)]
         return replace(stack, held=tuple(dict.fromkeys(body[part] for part in held)))
 

@@ -42,6 +42,7 @@ from jaxkin.assembly.inference.lock_nuts import locked_threads
 from jaxkin.assembly.inference.lying_on_one import lying_on_one
 from jaxkin.assembly.inference.motors import motor_shafts
 from jaxkin.assembly.inference.on_rings import clamped_on_rings
+from jaxkin.assembly.inference.on_steppers import on_shafts, stepper_joints
 from jaxkin.assembly.inference.one_screw import clamped_by_one_screw
 from jaxkin.assembly.inference.pinned_slides import pinned_slides
 from jaxkin.assembly.inference.pocketed_nuts import nuts_in_pockets
@@ -131,6 +132,8 @@ def _take_bearings(known: Known) -> None:
     known.rings |= {frozenset(pair.parts) for pair in in_closed_bearings(known, closed)}
     known.closed = {each.part.name for each in closed}
     known.take(closed_bearing_bodies(known, closed))
+    known.driven = {frozenset(pair.parts) for _, pair in on_shafts(known)}
+    known.rings |= known.driven
 
 
 def _take_hubs_and_find_fasteners(known: Known) -> set[str]:
@@ -183,7 +186,8 @@ def _take_pins_in_one_part(known: Known, fastening: Collection[str]) -> None:
 def _take_what_fasteners_hold(known: Known, fastening: Collection[str]) -> None:
     """Take what patterns of fasteners hold, then each fastener with its body, then what one screw alone holds."""
     outside = [pair for pair in known.axes if not {*pair.parts} & known.closed]  # bearings hold no fastener
-    touching = {pair for pair in known.touching if not pair & known.closed}
+    outside = [pair for pair in outside if frozenset(pair.parts) not in known.driven]
+    touching = {pair for pair in known.touching if not pair & known.closed} - known.driven
     drawn = stacks(outside, fastening, touching, known.order)
     every = with_hosts([*drawn, *spacers(known, fastening)], known)
     known.take(on_undrawn_rods(known))
@@ -215,7 +219,7 @@ def _take_joints_between_bodies(known: Known, fastening: Collection[str]) -> _St
     known.take(on_lead_screws(known, lead_nuts(known)))
     known.take(shoes(known))
     known.take([*pinned_slides(known), *dowelled(known)])
-    turning = closed_bearing_joints(known, known.measured.closed_bearings)
+    turning = [*closed_bearing_joints(known, known.measured.closed_bearings), *stepper_joints(known)]
     known.take([each.inference for each in turning if not each.replaces_slide])
     body = known.body
     borne = {frozenset(body[part] for part in each.inference.parts) for each in turning}

@@ -13,7 +13,9 @@ from jaxkin.assembly.inference.bearings import Bearing, Ring, bearings
 from jaxkin.assembly.inference.bores import Bore, bores
 from jaxkin.assembly.inference.closed_bearings import closed_bearings
 from jaxkin.assembly.inference.embedded import depth_inside
+from jaxkin.assembly.inference.linear_bearings import linear_bearings
 from jaxkin.assembly.inference.slotted_pins import SlottedPin, slotted_pins
+from jaxkin.assembly.inference.steppers import Stepper, steppers
 from jaxkin.assembly.inference.stop_faces import StopFace, slanted_stops, stops
 from jaxkin.geometry.part import Part
 
@@ -56,6 +58,16 @@ class Measured:
         """Bearings that are one part each: see `closed_bearings`."""
         taken = {name for each in self.bearings for name in (each.outer, each.inner, *each.between)}
         return [each for each in closed_bearings(self.parts, self.bores, self._metre) if each.part.name not in taken]
+
+    @cached_property
+    def linear_bearings(self) -> set[str]:
+        """Linear ball bearings that are one part each: see `linear_bearings`."""
+        return linear_bearings(self.parts, self.bores, self._metre)
+
+    @cached_property
+    def steppers(self) -> list[Stepper]:
+        """Stepper motors that are one part with their shaft: see `steppers`."""
+        return steppers(self.parts, self.bores, self._metre)
 
     def axes(self, clearance: float | None) -> list[CommonAxis]:
         """Find the common axes of different parts: see `common_axes`."""

@@ -1,0 +1,64 @@
+"""What is on the shaft of a stepper motor that is one solid with it: it turns."""
+
+from __future__ import annotations
+
+from jaxkin.assembly.inference.axes import CommonAxis, engaged
+from jaxkin.assembly.inference.bores import NEAR_LENGTH
+from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.sleeves import MAX_LOOSE
+from jaxkin.assembly.inference.slide_stops import Stop
+from jaxkin.assembly.inference.steppers import SAME_SHAFT, Stepper
+from jaxkin.assembly.inference.stop_faces import stands_across
+from jaxkin.assembly.inference.stopped_joint import StoppedJoint
+from jaxkin.geometry.surfaces import Plane
+from jaxkin.joints import pairs
+from jaxkin.joints.evidence import Evidence, EvidenceKind
+
+
+def on_shafts(known: Known) -> list[tuple[Stepper, CommonAxis]]:
+    """Find the hubs on the shafts of stepper motors; what lies on the flange of a motor is no hub."""
+    result = []
+    for each in known.measured.steppers:
+        for pair in known.axes:
+            on = pair.one.part == each.part and pair.one.on_axis_of(each.shaft) and not pair.virtual
+            if on and abs(pair.one.radius / each.shaft.radius - 1) <= SAME_SHAFT:
+                hub = pair.other.part
+                tight = pair.clearance <= MAX_LOOSE * pair.other.radius
+                if tight and not _lies_on_flange(known, each, hub):
+                    result.append((each, pair))
+    return result
+
+
+def _lies_on_flange(known: Known, motor: Stepper, part: str) -> bool:
+    """Tell whether a part lies on a face of a motor across its shaft, other than the end of that."""
+    axis = motor.shaft.axis
+    ends, middle = motor.shaft.reach(axis), float(known.solids[motor.part].box.mean(axis=0) @ axis)
+    tip = max(ends, key=lambda end: abs(end - middle))
+    planes = [
+        each.surfaces[each.parts.index(motor.part)] for each in known.between.get(frozenset((motor.part, part)), ())
+    ]
+    across = [plane for plane in planes if isinstance(plane, Plane) and stands_across(plane, axis)]
+    return any(abs(float(plane.point @ axis) - tip) > NEAR_LENGTH * motor.shaft.radius for plane in across)
+
+
+def stepper_joints(known: Known) -> list[StoppedJoint]:
+    """Make a revolute joint of each stepper motor and the hubs on its shaft.
+
+    Where the hub fits exactly, it only stops the slide that contacts allow.
+    """
+    body, result, taken = known.body, [], {*known.jointed}
+    for motor, pair in sorted(on_shafts(known), key=lambda each: engaged(each[1]), reverse=True):
+        owners = frozenset(body[part] for part in pair.parts)
+        if len(owners) < 2 or owners in taken:
+            continue
+        taken.add(owners)
+        exact = any(owners == {body[part] for part in each} for each in known.pinned)
+        parts = known.in_order(pair.parts)
+        joint = pairs.revolute("-".join(parts), *parts, point=pair.other.point, axis=motor.shaft.axis)
+        text = f"{pair.other.part!r} is on the shaft of {motor.part!r}, which has the sizes of a stepper motor of NEMA "
+        text += f"{motor.size}, and is one solid with it"
+        sizes = (("radius", motor.shaft.radius), ("clearance", pair.clearance))
+        inference = Inference.of(joint, Evidence(EvidenceKind.ENCLOSED, sizes, text))
+        result.append(StoppedJoint(inference, Stop.BEARING, exact))
+    return result

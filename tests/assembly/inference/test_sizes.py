@@ -1,0 +1,54 @@
+"""Stepper motors and linear bearings, known by their sizes; places and orders at random change nothing."""
+
+import pytest
+
+from reference.round_parts import SEEDS, anywhere, assembly, block, owners, part, pin, ring
+
+ON_CATALOGUE = {"scaled_at_random": False}
+"""Sizes of a catalogue are not scaled."""
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(
+    ("side", "bore", "turns"),
+    [(42.3, 2.5, True), (41.0, 2.6, True), (35.0, 2.5, True), (50.0, 2.5, False)],
+)
+def test_what_is_on_the_shaft_of_a_stepper_motor_of_one_solid_turns(side, bore, turns, seed):
+    """A block of another size with a pin on it may be anything: what fits the pin is set on it, as before."""
+    motor = part("motor", block((-side / 2, -side / 2, -40), (side / 2, side / 2, 0)), pin(11.0, 0, 2), pin(2.5, 2, 22))
+    drawn = assembly(motor, part("pulley", ring(bore, 7.0, 8, 20)))
+    mechanism = anywhere(drawn, seed, **ON_CATALOGUE).mechanism(fixed=["motor"])
+    body = owners(mechanism)
+    kinds = {joint.kind for joint in mechanism.all_joints if joint.freedoms}
+    assert (body["pulley"] != body["motor"] and kinds == {"revolute"}) == turns
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_plate_on_the_flange_of_a_stepper_motor_is_no_hub(seed):
+    motor = part("motor", block((-21, -21, -40), (21, 21, 0)), pin(11.0, 0, 2), pin(2.5, 2, 22))
+    plate = part("plate", ring(2.5, 4.0, 2, 8), block((-30, 4, 2), (30, 30, 8)))
+    mechanism = anywhere(assembly(motor, plate), seed, **ON_CATALOGUE).mechanism(fixed=["motor"])
+    assert not any("stepper" in note for note in mechanism.notes)
+
+
+def rods_and_carriages(length):
+    """Two carriages with two bearings each on two rods, of which a block holds more than half with them."""
+    places = [(-30.0, 0.0), (30.0, 0.0)]
+    block_ = part("block", *(ring(4.0, 12.0, 0, 50, at) for at in places), block((-18, -10, 0), (18, 10, 50)))
+    rods = [part(f"rod {k}", pin(4.0, 0, 140, at)) for k, at in enumerate(places)]
+    carriages, bearings = [], []
+    for name, low in (("lower", 60.0), ("upper", 100.0)):
+        seats = [ring(7.5, 12.0, low, low + length, at) for at in places]
+        carriages.append(part(name, *seats, block((-18, -10, low), (18, 10, low + length))))
+        bearings += [part(f"{name} {k}", ring(4.0, 7.5, low, low + length, at)) for k, at in enumerate(places)]
+    return assembly(block_, *rods, *carriages, *bearings)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(("length", "slides"), [(24.0, True), (20.0, False)])
+def test_two_carriages_with_linear_bearings_on_the_same_rods_are_not_one_body(length, slides, seed):
+    """Bushes of no such size in two plates on two rods are as those of spacers: the rods hold all of them."""
+    mechanism = anywhere(rods_and_carriages(length), seed, **ON_CATALOGUE).mechanism(fixed=["block"])
+    body = owners(mechanism)
+    assert (len({body["lower"], body["upper"], body["block"]}) == 3) == slides
+    assert not slides or (body["lower 0"] == body["lower"] and body["upper 1"] == body["upper"])
