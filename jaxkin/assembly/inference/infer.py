@@ -70,6 +70,7 @@ from jaxkin.assembly.inference.spacers import spacers
 from jaxkin.assembly.inference.spreaders import spreaders
 from jaxkin.assembly.inference.standing import butting_pins, embedded_pins, standing_rods
 from jaxkin.assembly.inference.stopped_joint import StoppedJoint
+from jaxkin.assembly.inference.tabs import tabs_in_slots
 from jaxkin.assembly.inference.tapers import self_holding_tapers
 from jaxkin.assembly.inference.tight_ends import bolted_ends, pressed_pins, riveted_studs, screwed_on_ends
 from jaxkin.assembly.inference.tube_clamps import clamped_halves, u_bolts
@@ -218,7 +219,7 @@ def _take_joints_between_bodies(known: Known, fastening: Collection[str]) -> _St
     known.take(ball_joints(known))
     known.take(on_lead_screws(known, lead_nuts(known)))
     known.take(shoes(known))
-    known.take([*pinned_slides(known), *dowelled(known)])
+    known.take([*pinned_slides(known), *dowelled(known), *tabs_in_slots(known)])
     turning = [*closed_bearing_joints(known, known.measured.closed_bearings), *stepper_joints(known)]
     known.take([each.inference for each in turning if not each.replaces_slide])
     body = known.body
