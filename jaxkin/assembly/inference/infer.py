@@ -34,12 +34,13 @@ from jaxkin.assembly.inference.held import (
 )
 from jaxkin.assembly.inference.hinges import hinges
 from jaxkin.assembly.inference.inference import Inference
-from jaxkin.assembly.inference.keyed import flatted_hubs, keyed_hubs, squared_hubs
+from jaxkin.assembly.inference.keyed import flatted_hubs, keyed_hubs, seated_on_squares, squared_hubs
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.lead_nuts import lead_nuts, on_lead_screws
 from jaxkin.assembly.inference.link_ends import hinged_ends
 from jaxkin.assembly.inference.lock_nuts import locked_threads
 from jaxkin.assembly.inference.lying_on_one import lying_on_one
+from jaxkin.assembly.inference.meshing_wheels import meshing_wheels
 from jaxkin.assembly.inference.motors import motor_shafts
 from jaxkin.assembly.inference.on_rings import clamped_on_rings
 from jaxkin.assembly.inference.on_steppers import on_shafts, stepper_joints
@@ -161,6 +162,8 @@ def _take_hubs_and_find_fasteners(known: Known) -> set[str]:
     fastening -= rollers(known, fastening) | known.blocks | in_grooves(known, fastening)
     fastening -= {each.screw.part for each in lead_nuts(known)}
     known.take([*squared_hubs(known, fastening), *pressed_on_shoulders(known, fastening)])
+    known.take(seated_on_squares(known, fastening))
+    fastening -= meshing_wheels(known, fastening)
     known.take(locked_threads(known, fastening))
     body = known.body
     others = [each for each in known.contacts if not (each.contact_state.is_flat or each.contact_state.is_pin)]

@@ -10,9 +10,10 @@ import numpy as np
 from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.meshing_wheels import outer_teeth
 from jaxkin.assembly.inference.sleeves import SAME_FIT
 from jaxkin.assembly.inference.stop_faces import ACROSS, MAX_LIFT, play
-from jaxkin.assembly.inference.walls import between_faces, is_on_polygon
+from jaxkin.assembly.inference.walls import between_faces, is_on_polygon, lengths_beside
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
@@ -25,6 +26,14 @@ MAX_WIDTH = 1.0
 MAX_HUB = 4.0
 """Length of a hub on a shaft with a flat, over the radius of the shaft, at most: what slides on such a shaft is longer,
 so that it does not jam."""
+
+MAX_SEAT = 1.25
+"""Length of the polygon of a shaft over that of the hub on it, at most, to be the seat of the hub: one to slide on is
+longer."""
+
+MAX_SEAT_TURN = 0.15
+"""Radians by which a hub turns to and fro on such a seat in all, at most: printed ones have a quarter of a millimetre
+on each side of a square of 7."""
 
 
 def flatted_hubs(known: Known) -> list[Inference]:
@@ -68,6 +77,33 @@ def squared_hubs(known: Known, fastening: Collection[str]) -> list[Inference]:
                 sizes = (("radius", pair.one.radius), ("play", room))
                 parts = known.in_order((shaft, hub, end))
                 result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
+    return result
+
+
+def seated_on_squares(known: Known, fastening: Collection[str]) -> list[Inference]:
+    """Join wheels with teeth with the slim shafts whose square or hexagon they are on with play, where that is no
+    longer than the wheel: it leaves no stroke to shift gears, and is a seat, where a press fit keeps the wheel."""
+    result = []
+    for shaft in known.in_order(fastening):
+        pins = [bore for bore in known.bores[shaft] if not bore.hole]
+        if not pins:
+            continue
+        pin = max(pins, key=lambda bore: bore.half)
+        for hub in known.measured.beside(known.solids[shaft]):
+            touching = frozenset((shaft, hub.name)) in known.touching
+            if touching and not known.touches_only_across(shaft, hub.name, pin.axis):
+                continue
+            on = is_on_polygon(hub, known.solids[shaft], pin.point, pin.axis, MAX_SEAT_TURN)
+            if on and outer_teeth(hub, pin) is not None:
+                long, seat = lengths_beside(hub, known.solids[shaft], pin.axis)
+                if seat <= MAX_SEAT * long:
+                    text = (
+                        f"flat sides of {shaft!r} keep {hub.name!r} from turning on it, and are {seat:.3g} long, for "
+                    )
+                    text += f"a hub of {long:.3g}"
+                    sizes = (("radius", pin.radius), ("length", seat))
+                    parts = known.in_order((shaft, hub.name))
+                    result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
     return result
 
 

@@ -78,9 +78,10 @@ def turns(ones: Sequence[Part], others: Sequence[Part], point: Vector, axis: Vec
     return float(sum(room))
 
 
-def is_on_polygon(hub: Part, shaft: Part, point: Vector, axis: Vector) -> bool:
+def is_on_polygon(hub: Part, shaft: Part, point: Vector, axis: Vector, turn: float = MAX_TURN) -> bool:
     """Tell whether a hub is on a square, a hexagon or the like of a shaft about an axis: faces along it look at each
-    other in three directions or more, the nearest ones as far from the axis, and leave little play to turn."""
+    other in three directions or more, the nearest ones as far from the axis, and leave it a play of up to `turn`
+    radians."""
     nearest: dict[tuple[float, ...], float] = {}
     for normal, face, *_ in _beside([hub], [shaft], axis):
         away = float((point - face.triangles[0, 0]) @ normal)
@@ -90,7 +91,15 @@ def is_on_polygon(hub: Part, shaft: Part, point: Vector, axis: Vector) -> bool:
     if len(nearest) < LEAST_SIDES:
         return False
     least, most = min(nearest.values()), max(nearest.values())
-    return most - least <= MAX_TURN * most and turns([hub], [shaft], point, axis) <= MAX_TURN
+    return most - least <= MAX_TURN * most and turns([hub], [shaft], point, axis) <= turn
+
+
+def lengths_beside(hub: Part, shaft: Part, axis: Vector) -> tuple[float, float]:
+    """Measure how long the faces along an axis are that a hub and its shaft have beside each other: of each part."""
+    found = _beside([hub], [shaft], axis)
+    faces = [a for _, a, _, _ in found], [b for _, _, b, _ in found]
+    ends = [np.concatenate([face.triangles.reshape(-1, 3) for face in some]) @ axis for some in faces]
+    return float(np.ptp(ends[0])), float(np.ptp(ends[1]))
 
 
 def _beside(ones: Sequence[Part], others: Sequence[Part], axis: Vector) -> list[tuple[Vector, Face, Face, float]]:

@@ -1,0 +1,71 @@
+"""Wheels with teeth on shafts in one plate, at a place, a size and in an order at random, which change nothing."""
+
+import numpy as np
+import pytest
+
+from jaxkin.geometry.surfaces import Plane
+from reference.round_parts import SEEDS, Z, anywhere, assembly, block, kind_of, owners, part, pin, ring
+
+
+def prism(outline, low, high, at=(0.0, 0.0), side=1.0):
+    """The walls of a polygon that is star-shaped about a point, and its ends; those of a hole with -1 as `side`, which
+    has no ends."""
+    corners = np.column_stack([np.asarray(outline, float) + at, np.zeros(len(outline))])
+    others, faces = np.roll(corners, -1, axis=0), []
+    for one, other in zip(corners, others, strict=True):
+        normal = side * np.cross(other - one, Z)
+        square = [one + low * Z, other + low * Z, other + high * Z, one + high * Z]
+        triangles = np.array([square[:3], [square[0], square[2], square[3]]])
+        faces.append((Plane(square[0], normal / np.linalg.norm(normal)), triangles[:, :: int(side)]))
+    middle = np.array([*at, 0.0])
+    fan = np.stack([np.broadcast_to(middle, corners.shape), corners, others], axis=1)
+    ends = [(Plane(middle + high * Z, Z), fan + high * Z), (Plane(middle + low * Z, -Z), fan[:, ::-1] + low * Z)]
+    return [*faces, *(ends if side > 0 else ())]
+
+
+def square(half):
+    """The corners of a square."""
+    return [(half, -half), (half, half), (-half, half), (-half, -half)]
+
+
+def teeth(number, module, turn=0.0):
+    """The outline of a wheel with straight flanks, and some backlash."""
+    radius, outline = module * number / 2, []
+    for k in range(number):
+        middle, half = 2 * np.pi * k / number + turn, np.pi / (2 * number) - 0.05 * module / radius
+        flanks = [(-1.25, -1.75), (1.0, -0.45), (1.0, 0.45), (-1.25, 1.75)]
+        outline += [
+            (radius + height * module) * np.array([np.cos(middle + wide * half), np.sin(middle + wide * half)])
+            for height, wide in flanks
+        ]
+    return outline
+
+
+def winder(play, apart=18.0):
+    """Two shafts with play in a plate: one with teeth cut on it, one with a wheel on its square."""
+    plate = [ring(2.0 + play, 6.0, 0, 2), ring(2.0 + play, 6.0, 0, 2, (apart, 0.0)), block((-20, -30, 0), (40, -6, 2))]
+    pinion = part("pinion", pin(2.0, -2, 3), prism(teeth(9, 1.0), 3, 9), pin(2.0, 9, 12))
+    shaft = part("shaft", pin(2.0, -10, 4, (apart, 0.0)), prism(square(3.0), 4, 8.5, (apart, 0.0)))
+    # 27 teeth have a gap where the nine have one
+    rim = prism(teeth(27, 1.0, np.pi / 27 + np.pi), 4, 8, (apart, 0.0))
+    wheel = part("wheel", rim, prism(square(3.15), 4, 8, (apart, 0.0), -1.0))
+    return assembly(part("plate", *plate), pinion, shaft, wheel)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_wheels_in_mesh_turn_on_shafts_with_play_in_one_plate_alone(seed):
+    """The wheel is on a square as long as itself, which leaves it no stroke: it is held there."""
+    mechanism = anywhere(winder(0.1), seed).mechanism(fixed=["plate"])
+    body = owners(mechanism)
+    assert body["wheel"] == body["shaft"] and len({body[each] for each in ("plate", "pinion", "wheel")}) == 3
+    assert {kind_of(mechanism, "plate", each) for each in ("pinion", "shaft")} <= {"revolute", "cylindrical"}
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_wheel_with_teeth_that_mesh_with_nothing_may_be_the_knob_of_a_screw(seed):
+    """So may one that fits its hole exactly, which is pressed in."""
+    drawn = winder(0.1)
+    alone = anywhere(assembly(*(each for each in drawn.parts if each.name in ("plate", "pinion"))), seed)
+    assert owners(alone.mechanism(fixed=["plate"]))["pinion"] == "plate"
+    tight = owners(anywhere(winder(0.0), seed).mechanism(fixed=["plate"]))
+    assert tight["pinion"] == tight["plate"]
