@@ -10,6 +10,7 @@ from jaxkin.assembly.inference.ball_studs import held_studs
 from jaxkin.assembly.inference.bearing_joints import bearing_bodies, bearing_joints
 from jaxkin.assembly.inference.bearings import outside_of
 from jaxkin.assembly.inference.carriages import carriages
+from jaxkin.assembly.inference.clamp_screws import swivel_screws
 from jaxkin.assembly.inference.closed_bearing_joints import (
     closed_bearing_bodies,
     closed_bearing_joints,
@@ -164,6 +165,7 @@ def _take_hubs_and_find_fasteners(known: Known) -> set[str]:
     known.take([*squared_hubs(known, fastening), *pressed_on_shoulders(known, fastening)])
     known.take(seated_on_squares(known, fastening))
     fastening -= meshing_wheels(known, fastening)
+    fastening -= swivel_screws(known, fastening)
     known.take(locked_threads(known, fastening))
     body = known.body
     others = [each for each in known.contacts if not (each.contact_state.is_flat or each.contact_state.is_pin)]
