@@ -12,8 +12,7 @@ from jaxkin.contacts.contact import Contact
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
-from jaxkin.mobility.loop_freedoms import loop_freedoms
-from jaxkin.mobility.mobility import moving_columns, names
+from jaxkin.mobility.mobility import moving_coordinates
 from jaxkin.topology.bodies import body_of_parts
 
 if TYPE_CHECKING:
@@ -55,7 +54,7 @@ def leaves_all_moving(
 
     def seen(found: Mechanism, wanted: Callable[[Joint], bool]) -> set[tuple[frozenset[str], str]]:
         """Find which bodies of the other mechanism move on each other, by which coordinates."""
-        moving, joints = _moving(found), filter(wanted, found.all_joints)
+        moving, joints = moving_coordinates(found.linkage), filter(wanted, found.all_joints)
         return {
             (frozenset(owner[part] for part in joint.parts), name)
             for joint in joints
@@ -70,14 +69,3 @@ def leaves_all_moving(
     left = seen(other, lambda _: True)
     gone_by = seen(mechanism, stays) - left
     return not gone_by or (but_slides and all(name == "z" and (pair, "phi") in left for pair, name in gone_by))
-
-
-def _moving(mechanism: Mechanism) -> set[str]:
-    """Name the coordinates in which more moves than idle parts."""
-    in_loops, found = set(), set()
-    for each in loop_freedoms(mechanism.linkage):
-        in_loops |= {joint for joint, _ in each.columns}
-        found |= {*names(mechanism.linkage, each, moving_columns(each, each.motions))}
-    outside = (joint for k, joint in enumerate(mechanism.linkage.joints) if k not in in_loops)
-    found |= {f"{joint.name}.{name}" for joint in outside for name in joint.coordinates}
-    return found - {*mechanism.mobility().idle}

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from jaxkin.assembly.caps import told_caps
 from jaxkin.assembly.dropped_inference import with_count, with_note_of_dropped, without_weakest
+from jaxkin.assembly.exact_fits import with_doubts
 from jaxkin.assembly.ignored_contacts import check_ignored, without
 from jaxkin.assembly.inference.infer import infer
 from jaxkin.assembly.inference.inference import Inference
@@ -67,7 +68,7 @@ def _with_springs(
     seats, trial = _hold_seated(trials, seats, trial)
     seats, trial = _hold_lying(trials, seats, trial)
     check_ignored(contacts, options.ignore, trials.heeded)
-    found = _movable(trials, seats, trial)
+    found = with_doubts(_movable(trials, seats, trial), trials.bearings)
     taken_back = [
         f"nothing is inferred between {one!r} and {other!r}, as was asked for"
         for one, other in options.ignored
@@ -120,6 +121,10 @@ class _Trials:
         """Pairs of parts between which nothing is inferred."""
         self.heeded = set[Pair]()
         """Those of `ignored` for which some inference was left out."""
+        measured = assembly._measured
+        self.bearings = {name for each in measured.bearings for name in (each.outer, each.inner)}
+        self.bearings |= {each.part.name for each in measured.closed_bearings}
+        """The rings of bearings, and bearings that are one part each."""
         self.fasteners = set[str]()
         """Parts that were taken for fasteners in some trial."""
 

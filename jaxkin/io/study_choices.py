@@ -17,9 +17,11 @@ from jaxkin.geometry.part import Part
 from jaxkin.io.study_bodies import BodyChoices
 from jaxkin.io.study_drives import can_drive, small_ranges, useful_coordinates
 from jaxkin.io.toml_text import toml
-from jaxkin.joints.evidence import EvidenceKind
+from jaxkin.joints.evidence import Doubt, EvidenceKind
 from jaxkin.joints.joint import Joint
-from jaxkin.joints.pairs import JOINTS_BY_HAND
+from jaxkin.joints.kinds import JointKind
+from jaxkin.joints.pairs import JOINTS_BY_HAND, fixed
+from jaxkin.mobility.doubts import doubts
 from jaxkin.mobility.open_loops import opening
 
 if TYPE_CHECKING:
@@ -59,8 +61,8 @@ def find_choices(
     driven = tuple(drive or ())
     instead = [*_other_fixed(tried, proposals), *islice(_other_drives(mechanism, driven), _DRIVES)]
     off = {joint.name: _off(tried, joint, driven) for joint in tried.joints if _is_found(joint)}
-    doubts = {joint.name: _doubt(tried, joint, driven) for joint in tried.joints if _is_doubtful(joint)}
-    return Choices(tuple(instead), tuple(_needless(mechanism, bodies)), off, doubts)
+    other = {joint.name: _doubt(tried, joint, doubt, driven) for joint, doubt in doubts(mechanism.linkage)}
+    return Choices(tuple(instead), tuple(_needless(mechanism, bodies)), off, other)
 
 
 class _Tried:
@@ -111,19 +113,17 @@ def _off(tried: _Tried, joint: Joint, driven: Sequence[str]) -> str:
     return f"# off = true  # without it: {_told(mechanism)}"
 
 
-def _is_doubtful(joint: Joint) -> bool:
-    return joint.evidence is not None and joint.evidence.doubt is not None
-
-
-def _doubt(tried: _Tried, joint: Joint, driven: Sequence[str]) -> str:
+def _doubt(tried: _Tried, joint: Joint, doubt: Doubt, driven: Sequence[str]) -> str:
     """Write the other reading of a joint as the end of the line of its kind, with what it gives."""
-    doubt = joint.evidence.doubt if joint.evidence else None
-    assert doubt is not None
-    pose = np.asarray(joint.frames_1, float)[0]
-    other = JOINTS_BY_HAND[doubt.kind](joint.name, *joint.parts, point=pose[:3, 3], axis=pose[:3, 2])
+    if one_body := doubt.kind is JointKind.FIXED:
+        other = fixed(joint.name, *joint.parts)
+    else:
+        pose = np.asarray(joint.frames_1, float)[0]
+        other = JOINTS_BY_HAND[doubt.kind](joint.name, *joint.parts, point=pose[:3, 3], axis=pose[:3, 2])
     mechanism = tried.without(joint, other)
     sweeps = "" if not driven or can_drive(mechanism, driven) else ", which need another drive"
-    return f'or "{doubt.kind}", since {doubt.why}: it has {_told(mechanism)} then{sweeps}'
+    instead = f"{toml(joint.parts)} in rigid" if one_body else f'"{doubt.kind}"'
+    return f"or {instead}, since {doubt.why}: it has {_told(mechanism)} then{sweeps}"
 
 
 def _needless(mechanism: Mechanism, bodies: BodyChoices) -> list[str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import NamedTuple
 
 from jaxkin.joints.kinds import JointKind
 
@@ -37,16 +38,52 @@ class EvidenceKind(StrEnum):
     """Written by hand."""
 
 
+class Seen(NamedTuple):
+    """How often a kind of evidence told the joint that was meant."""
+
+    right: int
+    """Joints that were as they were taken, or differed by what moves nothing else."""
+    of: int
+
+    @property
+    def share(self) -> float:
+        return self.right / self.of
+
+
+class Certainty:
+    """What was seen of each kind of evidence that is in doubt, in 113 drawings of machines with known joints, each of
+    them read by rules that were made before anybody had seen it: benchmarks/drawings/README.md.
+
+    Hinges of pins with play that faces stop were right in 246 of 266 cases, welds in 1740 of 1864.
+    """
+
+    NO_STOP = Seen(9, 47)
+    """A pin with play that nothing stops along its axis, taken to slide, where that slide is of use."""
+    FIT = Seen(17, 57)
+    """What fits exactly in a drawing where other joints have play, outside of loops and bearings."""
+    CENTRED = Seen(4, 12)
+    """A pin that nothing stops, taken to turn only: it is in the middle of its holes, or about as long as they are."""
+    ONE_FACE = Seen(10, 17)
+    """A face stops the slide on one side, a fastener on the other one."""
+    SHORT = Seen(7, 11)
+    """Faces are far, and the hole is short."""
+    NEAR_LIMIT = Seen(9, 12)
+    """Faces leave a play that is near to the largest one that counts as none."""
+
+
 @dataclass(frozen=True)
 class Doubt:
     """Another reading of the solids of a joint, about as likely."""
 
     kind: JointKind
-    """The kind that the joint would be of, about the same axis."""
+    """The kind that the joint would be of, about the same axis; fixed where its parts would be one body."""
     why: str
+    seen: Seen
+    """How often joints in this doubt were as they are taken."""
 
     def __str__(self) -> str:
-        return f"may be {self.kind}: {self.why}"
+        other = "one body" if self.kind is JointKind.FIXED else self.kind
+        return f"may be {other}: {self.why}"
 
 
 @dataclass(frozen=True)

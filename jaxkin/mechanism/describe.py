@@ -12,8 +12,10 @@ from jaxkin._grouped import SCREEN, grouped, kind_of, shortened
 from jaxkin._names import counted, listed
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.units import unit_name
-from jaxkin.joints.evidence import EvidenceKind
+from jaxkin.joints.evidence import Doubt, EvidenceKind
 from jaxkin.joints.joint import Joint
+from jaxkin.joints.kinds import JointKind
+from jaxkin.mobility.doubts import doubts
 from jaxkin.mobility.infeasible_drive import InfeasibleDrive
 from jaxkin.mobility.open_loops import opening
 from jaxkin.topology.bodies import body_of_parts
@@ -53,14 +55,20 @@ def describe_mechanism(mechanism: Mechanism, verbose: bool = False) -> str:
     loops = [_loop(loop, mechanism, verbose) for loop in mechanism.structure.loops]
     lines += ["", f"Loops: {len(loops)}", *(f"  {loop}" for loop in (shortened(loops) if brief else loops))]
     lines += ["", *describe_mobility(mechanism), *(_idle(mechanism) if verbose else [])]
-    if doubtful := [(each, doubt) for each in joints if (doubt := each.evidence and each.evidence.doubt)]:
-        rows = [f"  {each.name} is taken as {each.kind}, and {doubt}" for each, doubt in doubtful]
-        head = f"Doubtful: {len(rows)} of {len(joints)} joints; jaxkin inspect --study tries the other readings"
-        lines += ["", head, *(shortened(rows) if brief else rows)]
+    if doubtful := doubts(mechanism.linkage):
+        rows = [f"  {each.name} is taken as {each.kind}, and {_doubt(each, doubt)}" for each, doubt in doubtful]
+        head = f"Doubtful: {len(rows)} of {len(joints)} joints, the least certain first"
+        lines += ["", f"{head}; jaxkin inspect --study tries the other readings", *(shortened(rows) if brief else rows)]
     if mechanism.notes:
         notes = grouped(((kind_of(note.rpartition(": ")[2]), note) for note in mechanism.notes), not brief)
         lines += ["", "Notes:", *(f"  {note}" for note in notes)]
     return "\n".join(lines)
+
+
+def _doubt(joint: Joint, doubt: Doubt) -> str:
+    """Tell what else a joint may be, how often such joints were right, and how to say that its parts are one body."""
+    one_body = f": rigid=[{list(joint.parts)!r}]" if doubt.kind is JointKind.FIXED else ""
+    return f"{doubt} (right in {doubt.seen.right} of {doubt.seen.of} such joints){one_body}"
 
 
 def _loop(loop: Loop, mechanism: Mechanism, verbose: bool) -> str:

@@ -118,6 +118,16 @@ def outside_loops(linkage: Linkage) -> list[str]:
     ]
 
 
+def moving_coordinates(linkage: Linkage) -> set[str]:
+    """Name the coordinates, "joint.coordinate", in which more moves than idle parts."""
+    in_loops, found = _in_loops(linkage), set[str]()
+    for each in loop_freedoms(linkage):
+        found |= {*names(linkage, each, moving_columns(each, each.motions))}
+    outside = (joint for k, joint in enumerate(linkage.joints) if k not in in_loops)
+    found |= {name for joint in outside for name in joint.full_names}
+    return found - {*mobility(linkage).idle}
+
+
 def _in_loops(linkage: Linkage) -> set[int]:
     return {joint for loop_group in linkage.structure.loop_groups for joint in loop_group.joints}
 

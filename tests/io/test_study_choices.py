@@ -16,14 +16,16 @@ from jaxkin.assembly.proposals import Proposal
 from jaxkin.cli.app import app
 from jaxkin.geometry.part import Part
 from jaxkin.io.study_drives import can_drive, small_drive
-from jaxkin.joints.evidence import Bond, Doubt, Evidence, EvidenceKind
+from jaxkin.joints.evidence import Bond, Certainty, Doubt, Evidence, EvidenceKind
 from jaxkin.joints.kinds import JointKind
 from tessellation import write_stl
 
 CHOICE = re.compile(r'^(\s*)# (?=instead = |off = |")')
 FASTENER = Evidence(EvidenceKind.FASTENER, (("radius", 2.0),), "held by 'ground' only")
 CLEARANCE = Evidence(EvidenceKind.CLEARANCE, (("clearance", 0.05),), "the pin has a clearance of 0.05")
-DOUBTFUL = replace(CLEARANCE, doubt=Doubt(JointKind.CYLINDRICAL, "no face that is drawn stops its slide"))
+DOUBTFUL = replace(
+    CLEARANCE, doubt=Doubt(JointKind.CYLINDRICAL, "no face that is drawn stops its slide", Certainty.CENTRED)
+)
 LIFT_TABLE = Path(__file__).parents[1] / "assembly" / "data" / "lift_table.step.xz"
 
 
@@ -52,7 +54,10 @@ def bars():
 @pytest.fixture(scope="module")
 def study(tmp_path_factory):
     """The study of the four-bar linkage, with its solids as files beside it."""
-    folder, mechanism = tmp_path_factory.mktemp("bars"), bars()
+    return written(bars(), tmp_path_factory.mktemp("bars"))
+
+
+def written(mechanism, folder):
     geometry = {part.name: write_stl(folder / f"{part.name}.stl", part.triangles).name for part in mechanism.solids}
     tried = [
         Proposal(fixed, (), 1, 4, 4) for fixed in (("ground",), ("rocker",), ("ground", "coupler"), ("ground", "crank"))
@@ -86,6 +91,19 @@ def test_the_other_reading_of_a_doubtful_joint_is_beside_its_kind_with_what_it_g
     assert (
         mechanism.mobility().useful == 1 and "one freedom of use in 4 bodies then" in line
     )  # the loop stops the slide
+
+
+def test_a_joint_that_may_be_none_is_told_with_the_group_that_makes_one_body_of_its_parts(tmp_path):
+    doubt = Doubt(JointKind.FIXED, "it fits exactly", Certainty.FIT)
+    mechanism = bars()
+    joints = [
+        replace(joint, evidence=replace(CLEARANCE, doubt=doubt)) if joint.name == "D" else joint
+        for joint in mechanism.all_joints
+    ]
+    mechanism = replace(mechanism, linkage=mechanism.linkage.with_joints(joints))
+    text = written(mechanism, tmp_path).read_text("utf-8")
+    (line,) = [line for line in text.splitlines() if "in rigid" in line]
+    assert 'or ["ground", "rocker"] in rigid, since it fits exactly: it has 0 freedoms' in line
 
 
 @pytest.mark.long

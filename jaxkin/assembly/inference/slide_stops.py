@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import IntEnum
 
 from jaxkin.assembly.inference.stop_faces import MAX_AXIAL_PLAY
-from jaxkin.joints.evidence import Doubt
+from jaxkin.joints.evidence import Certainty, Doubt
 from jaxkin.joints.kinds import JointKind
 
 NEAR_LIMIT = 2.0
@@ -33,13 +33,13 @@ class Stop(IntEnum):
     """Nothing that is drawn, but it fits exactly where something else on the same pin has play."""
 
 
-_WHY = {
-    Stop.ONE_FACE: "on one side a fastener alone would stop its slide",
-    Stop.CENTRED: "no face that is drawn stops its slide",
-    Stop.NO_STROKE: "no face that is drawn stops its slide",
-    Stop.SHORT: "only that its hole is short tells that it does not slide",
+_SLIDES = {
+    Stop.ONE_FACE: ("on one side a fastener alone would stop its slide", Certainty.ONE_FACE),
+    Stop.CENTRED: ("no face that is drawn stops its slide", Certainty.CENTRED),
+    Stop.NO_STROKE: ("no face that is drawn stops its slide", Certainty.CENTRED),
+    Stop.SHORT: ("only that its hole is short tells that it does not slide", Certainty.SHORT),
 }
-"""Why a joint that is taken to turn only may slide, too."""
+"""Why a joint that is taken to turn only may slide, too, and how often such a joint did not."""
 
 
 def slide_doubt(stop: Stop, room: float | None, radius: float) -> Doubt | None:
@@ -47,10 +47,13 @@ def slide_doubt(stop: Stop, room: float | None, radius: float) -> Doubt | None:
 
     `room` is the play that faces leave along the axis, None without faces on both sides; `radius` that of the hole.
     """
-    if stop in _WHY:
-        return Doubt(JointKind.CYLINDRICAL, _WHY[stop])
+    if stop in _SLIDES:
+        return Doubt(JointKind.CYLINDRICAL, *_SLIDES[stop])
+    if stop is Stop.NONE and room is None:
+        return Doubt(JointKind.REVOLUTE, "nothing that is drawn stops its slide", Certainty.NO_STOP)
     limit = MAX_AXIAL_PLAY * radius
     if room is None or not limit / NEAR_LIMIT < room < limit * NEAR_LIMIT:
         return None
     kind = JointKind.CYLINDRICAL if room <= limit else JointKind.REVOLUTE
-    return Doubt(kind, f"faces leave it a play of {room:.2g}, where up to {limit:.2g} counts as none")
+    why = f"faces leave it a play of {room:.2g}, where up to {limit:.2g} counts as none"
+    return Doubt(kind, why, Certainty.NEAR_LIMIT)
