@@ -235,9 +235,8 @@ def _arranged(xp, kind: tuple[Body, tuple[Length, ...]], original, wanted) -> tu
         if one.kind == two.kind == "plane" and length.second < length.first:
             # of two planes `lengths` has the distance of the later one from the one before, which is turned here
             found = found._replace(about=poses[length.first][:3, 3])
-        direction = poses[length.first][:3, one.axis]
-        change = new - value(found, length.quantity)
-        poses[length.second] = moved(xp, length.quantity, found, change, direction, poses[length.second])
+        along, change = poses[length.first][:3, one.axis], new - value(found, length.quantity)
+        poses[length.second] = moved(xp, length.quantity, found, change, along, poses[length.second])
     if len(body) == 2:
         return xp.stack(poses), None
     layout = Layout(body, tuple(Change(length.first, length.second, length.quantity) for length in changed))
@@ -250,8 +249,7 @@ _arranged_program = jax.jit(_arranged, static_argnums=(0, 1))
 
 def _row(linkage: Linkage, body: Body) -> str:
     """Name the row of the incidence matrix that a body belongs to."""
-    joint = linkage.joints[body[0].joint]
-    return linkage.structure.row_of[joint.parts[0 if body[0].side == "frames_1" else 1]]
+    return linkage.structure.row_of[linkage.joints[body[0].joint].parts[_SIDES.index(body[0].side)]]
 
 
 def _with_frames(joint: Joint, frames: Mapping[tuple, Any], pitch: Any) -> Joint:
@@ -266,10 +264,9 @@ def _with_frames(joint: Joint, frames: Mapping[tuple, Any], pitch: Any) -> Joint
 
 def range_of(length: Length) -> tuple[float, float]:
     """Find the least and the largest value that a length may have: lengths without a sign, and angles, have bounds."""
-    if length.quantity == "angle":
-        return 0.0, float(np.pi)
     signed = length.quantity in ("offset", "pitch") or "plane" in [feature.kind for feature in length.body]
-    return (-np.inf if signed and length.quantity != "radius" else 0.0), np.inf
+    highest = float(np.pi) if length.quantity == "angle" else np.inf
+    return (-np.inf if signed and length.quantity not in ("radius", "angle") else 0.0), highest
 
 
 def _checked(key: LengthName, length: Length, wanted):

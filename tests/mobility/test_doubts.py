@@ -42,9 +42,9 @@ def test_doubts_come_by_how_often_such_joints_were_right():
         below = f"arm {name}"
     chain = jk.Mechanism.build(fixed=["ground"], joints=joints)
     found = doubts(chain.linkage)
-    assert [joint.name for joint, _ in found] == ["c", "b", "a"]
+    assert [joint.name for joint, _ in found] == ["b", "c", "a"]
     assert sorted(doubt.seen.share for _, doubt in found) == [doubt.seen.share for _, doubt in found]
     told = str(chain)
     assert "Doubtful: 3 of 3 joints, the least certain first" in told
-    assert told.index("c is taken") < told.index("b is taken") < told.index("a is taken")
+    assert told.index("b is taken") < told.index("c is taken") < told.index("a is taken")
     assert "b is taken as revolute, and may be one body: it fits" in told and "rigid=[['arm c'" not in told
