@@ -33,6 +33,26 @@ def test_a_slide_that_its_loop_stops_is_in_no_doubt_and_one_outside_of_loops_is(
     assert [joint.name for joint, _ in doubts(four_bar(turns).linkage)] == ["D"]
 
 
+def test_a_piston_whose_slide_alone_moves_its_loop_is_in_no_doubt():
+    z = (0.0, 0.0, 1.0)
+    piston = replace(jk.cylindrical("P", "barrel", "rod", point=(50, 20, 0), axis=(5, 2, 0)), evidence=STAYS)
+    boom = [
+        jk.revolute("A", "ground", "barrel", point=(0, 0, 0), axis=z),
+        jk.revolute("B", "rod", "boom", point=(100, 40, 0), axis=z),
+    ]
+    alone = jk.Mechanism.build(
+        fixed=["ground"], joints=[*boom, piston, jk.revolute("C", "ground", "boom", point=(0, 60, 0), axis=z)]
+    )
+    assert alone.mobility().freedoms == 1 and not doubts(alone.linkage)
+    # with one link more something moves without the slide, too
+    links = [
+        jk.revolute("C", "boom", "link", point=(0, 60, 0), axis=z),
+        jk.revolute("D", "link", "ground", point=(-40, 30, 0), axis=z),
+    ]
+    more = jk.Mechanism.build(fixed=["ground"], joints=[*boom, piston, *links])
+    assert [joint.name for joint, _ in doubts(more.linkage)] == ["P"]
+
+
 def test_doubts_come_by_how_often_such_joints_were_right():
     given = {"a": SLIDES, "b": HELD, "c": STAYS}
     joints, below = [], "ground"
