@@ -18,8 +18,8 @@ def ball(radius, centre, side):
 def clamp(knob):
     """A screw through a frame with a ball on its end, in the socket of a pad, with play; a knob on the other end."""
     frame = part("frame", ring(4.0, 12.0, 0, 12), block((12, -10, -60), (20, 10, 12)))
-    screw = part("screw", pin(4.0, -20, 25), pin(12.0 if knob else 3.9, 25, 31), ball(3.0, -22.0, 1.0))
-    socket = [ball(3.15, -22.0, -1.0), block((-10, -10, -40), (10, 10, -26))]
+    screw = part("screw", pin(4.0, -20, 25), pin(12.0 if knob else 3.9, 25, 31), ball(3.0, -22.0, 1))
+    socket = [ball(3.15, -22.0, -1), block((-10, -10, -40), (10, 10, -26))]
     return assembly(frame, screw, part("pad", *socket))
 
 
