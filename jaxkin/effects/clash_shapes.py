@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -100,6 +101,18 @@ def boxes_along(shape: ClashShape, transforms: Float[np.ndarray, "poses 4 4"]) -
     """Compute the bounding boxes of a displaced part in world axes."""
     points = np.einsum("pij,nj->pni", transforms[:, :3, :3], shape.part.outermost) + transforms[:, None, :3, 3]
     return np.stack([points.min(axis=1), points.max(axis=1)], axis=1)
+
+
+def largest_step(shapes: Sequence[ClashShape], places: Sequence[Float[np.ndarray, "poses 4 4"]]) -> float:
+    """Bound how far a point of a displaced part moves from one pose to the next: as a corner of its box at most."""
+    found = 0.0
+    for shape, transforms in zip(shapes, places, strict=True):
+        ends = np.stack([shape.part.outermost.min(axis=0), shape.part.outermost.max(axis=0)])
+        corners = np.stack(np.meshgrid(*ends.T, indexing="ij"), axis=-1).reshape(-1, 3)
+        steps = np.diff(transforms, axis=0)
+        moved = np.einsum("pij,nj->pni", steps[:, :3, :3], corners) + steps[:, None, :3, 3]
+        found = max(found, float(np.linalg.norm(moved, axis=-1).max(initial=0.0)))
+    return found
 
 
 def near_pairs(

@@ -14,7 +14,7 @@ from jaxkin._arguments import check_known, check_motion, numbers, several
 from jaxkin._grouped import MAX_LINES
 from jaxkin._names import nearest
 from jaxkin.assembly.joined import all_contacts
-from jaxkin.effects.clash_shapes import ClashShape, boxes_along, displaced, near_pairs, shape_of
+from jaxkin.effects.clash_shapes import ClashShape, boxes_along, displaced, largest_step, near_pairs, shape_of
 from jaxkin.effects.invariant_faces import SAME_PLACE, invariant
 from jaxkin.effects.penetration import depths
 from jaxkin.effects.pose_plot import NAMED, draw_lines, save_rows
@@ -56,6 +56,9 @@ class Clashes:
     """Up to which clearance it was measured."""
     unit: str
     """Unit of the lengths."""
+    step: float = 0.0
+    """Farthest that a point of a part moves from one closed pose to the next: parts that stay farther apart than that
+    cannot cut each other between two poses, which are not looked at."""
 
     @property
     def depths(self) -> Float[np.ndarray, "pairs poses"]:
@@ -113,6 +116,11 @@ class Clashes:
         if left:
             lines.append(f"  and {left} more pairs: see .pairs and .clearances")
         lines.append(f"  all others stay more than {self._length(self.within)} apart, or touch by contacts only")
+        if self.step > min(self.within, float(np.nanmin(self.least))):
+            lines.append(
+                f"  between two poses parts move by up to {self._length(self.step)}: those that are nearer than that "
+                "may cut each other there unseen; more poses tell"
+            )
         return "\n".join(lines)
 
     def plot(self, path: str | Path) -> Path:
@@ -205,7 +213,8 @@ def clashes(
             joined.append(is_joined)
             rows.append(row)
     clearances = np.stack(rows) if rows else np.zeros((0, len(motion)))
-    return Clashes(tuple(pairs), np.array(joined, bool), clearances, is_closed, within, mechanism.unit)
+    step = largest_step(shapes, places)
+    return Clashes(tuple(pairs), np.array(joined, bool), clearances, is_closed, within, mechanism.unit, step)
 
 
 def _compared(mechanism: Mechanism, setting: FaceSetting, ignore: Sequence[Sequence[str]]) -> np.ndarray:

@@ -54,6 +54,26 @@ def test_two_bars_that_cross_have_no_corner_in_each_other(tmp_path):
     np.testing.assert_allclose(found.clearances[0], [1.0, 0.5, -0.5, -2.0, -3.5], atol=1e-5)
 
 
+def test_what_may_pass_between_two_poses_is_told(tmp_path):
+    """A slider, 10 long, passes a wall, 2 thick: poses 40 apart are free of it, and nearer ones are not."""
+    parts = {"wall": box([50, 0, 0], [52, 20, 10]), "slider": box([0, 5, -1], [10, 15, 8])}
+    slide = jk.prismatic("slide", "wall", "slider", axis=(1, 0, 0))
+    mechanism = by_hand(tmp_path, parts, [slide])
+
+    def along(shift):
+        return jk.clashes(mechanism.sweep({"slide": np.asarray(shift, float)}))
+
+    far = along([0, 40, 80, 120])
+    assert not far.clashing.any()
+    np.testing.assert_allclose(far.step, 40, rtol=1e-12)
+    assert "between two poses parts move by up to 40 mm" in str(far)
+    assert along(np.arange(0, 120, 4)).clashing.any()
+    # 20 to 22 before the wall, in steps of 1: it cannot pass; where no clearance is measured that is not known
+    before = mechanism.sweep({"slide": np.array([18.0, 19.0, 20.0])})
+    assert "between two poses" not in str(jk.clashes(before, within=25.0))
+    assert "between two poses" in str(jk.clashes(before, within=0))
+
+
 def turning(folder):
     """An arm that turns past a ball and a post on a table, at changing distance."""
     ball = trimesh.creation.icosphere(3, radius=6.0)
