@@ -40,9 +40,10 @@ def test_noise_of_poses_does_not_tell_where_a_joint_is_along_its_axis(kind):
 
 
 @pytest.mark.long
+@pytest.mark.filterwarnings("ignore:jaxkin computes in float32")  # said once a process
 def test_single_precision_tells_no_more():
     """Angles do not tell the scale: derivatives that are rounded to 1e-7 told it, with bars of minus many metres."""
-    with jax.enable_x64(False), pytest.warns(UserWarning, match="float32"):
+    with jax.enable_x64(False):
         measured = np.array(fourbar(100.0, 40.2, 120.0, 80.0).sweep({"A": ANGLES}).coordinates["D"][:, 0], float)
         measured += np.random.default_rng(0).normal(0, 1e-3, 12)
         found = jk.calibrate(fourbar(*GIVEN), {"A": ANGLES}, {"D": measured}, lengths=BARS)
