@@ -14,7 +14,7 @@ from jaxtyping import Array, Float
 from jaxkin._arguments import by_name, exact_numbers
 from jaxkin.design.measures import STATIC, lengths_now
 from jaxkin.dimensions.frames import find_profile, locate
-from jaxkin.dimensions.lengths import find_length
+from jaxkin.dimensions.lengths import find_length, range_of
 from jaxkin.geometry.characteristic_length import centroid_and_length
 
 if TYPE_CHECKING:
@@ -156,11 +156,11 @@ def variables(
         found = _entry(
             "lengths", key, _free(f"length {key!r}", bounds, now), size=1.0 if length.quantity == "angle" else size
         )
-        signed = length.quantity in ("offset", "pitch") or any(f.kind == "plane" for f in length.body)
-        if length.quantity == "angle" and (np.any(found.lower < 0) or np.any(found.upper > np.pi)):
+        low, high = range_of(length)
+        if length.quantity == "angle" and (np.any(found.lower < low) or np.any(found.upper > high)):
             given = f"{float(found.lower):.6g} to {float(found.upper):.6g}"
             raise ValueError(f"length {key!r}: an angle is in radians between 0 and pi, got the bounds {given}")
-        if np.any(found.lower < 0) and not signed:
+        if np.any(found.lower < low):
             raise ValueError(f"length {key!r}: the lower bound {float(found.lower)} is negative, and a length is not")
         bounded.append(found)
     for key, bounds in by_name(points, "points", "{'A': (lower, upper)}").items():

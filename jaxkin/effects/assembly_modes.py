@@ -203,9 +203,9 @@ def assembly_modes(
     complete. Elsewhere the loops are closed from `tries` random starts, the same ones for the same `seed`, and the
     result tells how many led to each mode: one that was found once suggests that there are more. Poses that differ by
     idle freedoms, such as the spin of a rod between two balls, are one mode. Modes beyond the limits of joints are
-    there, too, and told (`beyond_limits`). Where a coupling ties an angle of a loop
-    to what does not make whole turns with it, such as a rack, each full turn is a mode of its own: there is no end of
-    them, and only some near the assembled pose are found. Loops that the drive does not move stay.
+    there, too, and told (`beyond_limits`). Where a coupling ties an angle of a loop to what does not make whole turns
+    with it, such as a rack, each full turn is a mode of its own: there is no end of them, and only some near the
+    assembled pose are found. Loops that the drive does not move stay.
     A mode whose `motion.sigma_min` is zero is singular: it may stand for a continuum of poses.
 
     Raises ValueError for a drive that leaves freedoms (the modes would be infinitely many) or that the loops cannot

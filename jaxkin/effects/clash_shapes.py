@@ -12,7 +12,7 @@ from jaxtyping import Bool, Float, Int
 from jaxkin.contacts.whole_face import is_whole
 from jaxkin.effects.sample_points import SurfacePoints, core_points, surface_points
 from jaxkin.geometry.displaced import Displaced
-from jaxkin.geometry.part import Face, Part
+from jaxkin.geometry.part import Face, Part, box_corners
 from jaxkin.geometry.surfaces import Cone, Plane, Sphere
 from jaxkin.geometry.triangle_distance import Points
 from jaxkin.geometry.triangle_tree import TriangleTree, aligned_axes, triangle_tree
@@ -104,11 +104,14 @@ def boxes_along(shape: ClashShape, transforms: Float[np.ndarray, "poses 4 4"]) -
 
 
 def largest_step(shapes: Sequence[ClashShape], places: Sequence[Float[np.ndarray, "poses 4 4"]]) -> float:
-    """Bound how far a point of a displaced part moves from one pose to the next: as a corner of its box at most."""
+    """Bound how far a point of a displaced part moves from one pose to the next, unit of the shapes.
+
+    It is an affine function of the point, so that none of the box of a part moves farther than a corner of it.
+    """
     found = 0.0
     for shape, transforms in zip(shapes, places, strict=True):
-        ends = np.stack([shape.part.outermost.min(axis=0), shape.part.outermost.max(axis=0)])
-        corners = np.stack(np.meshgrid(*ends.T, indexing="ij"), axis=-1).reshape(-1, 3)
+        points = shape.part.outermost
+        corners = box_corners(np.stack([points.min(axis=0), points.max(axis=0)]))
         steps = np.diff(transforms, axis=0)
         moved = np.einsum("pij,nj->pni", steps[:, :3, :3], corners) + steps[:, None, :3, 3]
         found = max(found, float(np.linalg.norm(moved, axis=-1).max(initial=0.0)))

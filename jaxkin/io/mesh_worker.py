@@ -50,11 +50,9 @@ def reason(error: Exception) -> str:
         return "it asks for more memory than a mesh of that size needs"
     if isinstance(error, RecursionError):
         return "its nodes are nested without end"
-    return (
-        str(error)
-        if isinstance(error, (Refused, _GLB["Refused"]))
-        else f"{type(error).__name__}: {error}".splitlines()[0][:200]
-    )
+    if isinstance(error, (Refused, _GLB["Refused"])):
+        return str(error)
+    return f"{type(error).__name__}: {error}".splitlines()[0][:200]
 
 
 def read(file, kind: str, most: int, parts: int) -> tuple[list[dict], list[str]]:
