@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis, engaged
-from jaxkin.assembly.inference.bores import Bore
+from jaxkin.assembly.inference.bores import SAME_LENGTH, Bore
 from jaxkin.assembly.inference.covers import covered_by
 from jaxkin.assembly.inference.fasteners import MAX_NUT, Stack, away_from, bolted, is_cotter, patterns
 from jaxkin.assembly.inference.heads import goes_through, is_exposed, is_headed
@@ -17,6 +17,7 @@ from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.moving_pins import moves_in_holes
 from jaxkin.assembly.inference.sleeves import SAME_FIT, is_round, is_round_about
 from jaxkin.assembly.inference.stop_faces import MAX_AXIAL_PLAY, nearest, play
+from jaxkin.assembly.inference.ties import first_largest
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 LONG = 2.5
@@ -153,7 +154,8 @@ def _holder(known: Known, stack: Stack, body: Mapping[str, str], slides: bool) -
         owner: (min(end[0] for end in some), max(end[1] for end in some), some[0][2]) for owner, some in reach.items()
     }
     keepers = _keepers(known, stack, reach, fits)
-    widest = max(keepers, key=lambda owner: ends[owner][1] - ends[owner][0])
+    rounding = SAME_LENGTH * stack.axis.radius
+    widest = first_largest(keepers, lambda owner: ends[owner][1] - ends[owner][0], rounding)
     low, high, part = ends[widest]
     if len(reach) == 1:
         # as a shaft in bushes, also where its collars touch what these are in; a nut is on a sleeve, and not in it
@@ -163,11 +165,12 @@ def _holder(known: Known, stack: Stack, body: Mapping[str, str], slides: bool) -
         return (None, "") if moves else (part, "only")
     turns = all(end[2] in known.sleeves for end in reach[widest])  # as a shaft in bearings, not as a rod in holes
     others = [ends[owner] for owner in ends if owner != widest]
-    tightest = min(fits, key=fits.__getitem__)
+    tightest = first_largest(fits, lambda owner: -fits[owner], rounding)
     same = SAME_FIT * stack.axis.radius
     if not slides and tightest in keepers and [owner for owner, fit in fits.items() if fit <= same] == [tightest]:
         return ends[tightest][2], "which it fits exactly, and has play in others"
-    if not slides or (not turns and all(low < one and other < high for one, other, _ in others)):
+    inside = all(low + rounding < one and other < high - rounding for one, other, _ in others)
+    if not slides or (not turns and inside):
         return part, "farthest out"
     looser = [fit for fit in fits.values() if fit > fits[tightest] + same]  # two cranks fit their shaft alike
     if traps - {tightest} or tightest in bushed:
@@ -195,7 +198,7 @@ def _keepers(
         return round_ones or all(part in known.sleeves for part in parts)
 
     keeping = [owner for owner, some in reach.items() if not turns([part for *_, part in some])] or list(reach)
-    tightest = min(fits, key=fits.__getitem__)
+    tightest = first_largest(fits, lambda owner: -fits[owner], SAME_LENGTH * stack.axis.radius)
     looser = min((fits[owner] for owner in keeping if owner != tightest), default=0.0) - fits[tightest]
     pressed = tightest not in keeping and looser > SAME_FIT * stack.axis.radius
     pressed = pressed and fits[tightest] <= PRESSED * stack.axis.radius

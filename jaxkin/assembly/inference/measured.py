@@ -17,6 +17,7 @@ from jaxkin.assembly.inference.linear_bearings import linear_bearings
 from jaxkin.assembly.inference.slotted_pins import SlottedPin, slotted_pins
 from jaxkin.assembly.inference.steppers import Stepper, steppers
 from jaxkin.assembly.inference.stop_faces import StopFace, slanted_stops, stops
+from jaxkin.contacts.tolerance import default_length
 from jaxkin.geometry.part import Part
 
 CORNERS = 12
@@ -91,9 +92,14 @@ class Measured:
         """Lowest and highest corner of each part."""
         return np.stack([part.box for part in self.parts])
 
+    @cached_property
+    def _touching(self) -> float:
+        """Distance of boxes that touch but for rounding."""
+        return default_length(self.parts)
+
     def beside(self, part: Part) -> list[Part]:
-        """Find the other parts whose boxes overlap that of a part."""
-        low, high = part.box
+        """Find the other parts whose boxes overlap or touch that of a part."""
+        low, high = part.box[0] - self._touching, part.box[1] + self._touching
         meet = np.all((self.boxes[:, 0] <= high) & (low <= self.boxes[:, 1]), axis=1)
         return [self.parts[index] for index in np.flatnonzero(meet) if self.parts[index] is not part]
 

@@ -16,6 +16,10 @@ from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 MAX_SHORTFALL = 2.0
 """Distance from the end of a screw to the part that it points at, over its radius: a thread drawn a little short."""
+_EDGE = 1e-9
+"""Share of a triangle by which a line may miss it at an edge and meets it all the same, and sine of the angle to its
+plane below which the line is along it: a line through an edge that two triangles share meets both, and not by chance
+neither."""
 
 
 def screwed_in(known: Known, fastening: Collection[str]) -> list[Inference]:
@@ -72,15 +76,16 @@ def _pointed_at(known: Known, stack: Stack, own: Collection[str]) -> tuple[float
 def crossings(
     point: Vector, axis: Vector, triangles: Float[np.ndarray, "triangles 3 3"]
 ) -> Float[np.ndarray, " crossings"]:
-    """Find where a line goes through triangles, as lengths along the line (Moeller and Trumbore 1997)."""
+    """Find where a line along a unit vector goes through triangles or their edges, as lengths along the line (Moeller
+    and Trumbore 1997)."""
     first, second = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
     normal = np.cross(axis, second)
     scale = np.einsum("ij,ij->i", first, normal)
-    steep = np.abs(scale) > np.finfo(float).tiny
+    steep = np.abs(scale) > _EDGE * np.linalg.norm(np.cross(first, second), axis=1)
     scale = np.where(steep, scale, 1.0)
     offset = point - triangles[:, 0]
     u = np.einsum("ij,ij->i", offset, normal) / scale
     turned = np.cross(offset, first)
     v = turned @ axis / scale
-    inside = steep & (u >= 0) & (v >= 0) & (u + v <= 1)
+    inside = steep & (u >= -_EDGE) & (v >= -_EDGE) & (u + v <= 1 + _EDGE)
     return (np.einsum("ij,ij->i", second, turned) / scale)[inside]

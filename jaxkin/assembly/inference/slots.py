@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from jaxkin.assembly.inference.bores import Bore
+from jaxkin.assembly.inference.bores import SAME_LENGTH, Bore
 from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.geometry.part import Face, Part
 from jaxkin.geometry.pose import Vector
@@ -30,6 +30,8 @@ def _wall(screw: Bore, face: Face, near: tuple[float, float], least: float) -> V
     along, aside = screw.axis, np.cross(normal, screw.axis)
     corners = face.triangles.reshape(-1, 3) - screw.point
     heights, sides = corners @ along, corners @ aside
-    beside = heights.min() < screw.half and heights.max() > -screw.half and sides.min() < 0 < sides.max()
+    slack = SAME_LENGTH * screw.radius  # a wall that ends at the axis, or where the screw does, is not beside it
+    beside = heights.min() < screw.half - slack and heights.max() > slack - screw.half
+    beside = beside and sides.min() < -slack and sides.max() > slack
     close = near[0] * screw.radius <= apart <= near[1] * screw.radius
     return normal if beside and close and np.ptp(sides) >= least else None

@@ -11,7 +11,7 @@ from jaxtyping import Float
 
 from jaxkin.assembly.inference.bores import Bore
 from jaxkin.geometry.part import Part
-from jaxkin.geometry.pose import Vector
+from jaxkin.geometry.pose import Vector, frame
 from jaxkin.geometry.surfaces import Plane, Surface
 from jaxkin.geometry.triangles import double_areas
 
@@ -103,9 +103,7 @@ def slanted_stops(part: Part, axis: Bore) -> list[StopFace]:
 def _beside(triangles: Float[np.ndarray, "triangles 3 3"], axis: Bore) -> Float[np.ndarray, "points 2"]:
     """List points of triangles, relative to the axis, that lie beside its bore: heights, and distances from it."""
     heights = triangles @ axis.axis
-    x = np.cross(axis.axis, np.eye(3)[np.argmin(np.abs(axis.axis))])
-    x /= np.linalg.norm(x)
-    flat = triangles @ np.column_stack([x, np.cross(axis.axis, x)])
+    flat = triangles @ frame(axis.point, axis.axis, _towards_farthest(triangles, axis.axis))[:3, :2]
     away = np.linalg.norm(flat, axis=-1)
     low, high = WIDER * axis.radius, REACH * axis.radius
     near = np.all(flat.min(axis=1) <= high, axis=-1) & np.all(flat.max(axis=1) >= -high, axis=-1)
@@ -122,6 +120,16 @@ def _beside(triangles: Float[np.ndarray, "triangles 3 3"], axis: Bore) -> Float[
             on_it = height[0] + (height[1:] - height[0]) @ share[:, inside]
             found.append(np.column_stack([on_it, radius.ravel()[inside]]))
     return np.concatenate(found)
+
+
+def _towards_farthest(triangles: Float[np.ndarray, "triangles 3 3"], axis: Vector) -> Vector | None:
+    """Find the direction across an axis through the origin to the corner that is farthest from it, so that what is
+    measured in this direction turns with the triangles; None where there is no such corner."""
+    corners = triangles.reshape(-1, 3)
+    corners = corners - np.outer(corners @ axis, axis)
+    away = np.linalg.norm(corners, axis=1)
+    farthest = int(np.argmax(away)) if len(away) else 0
+    return corners[farthest] if len(away) and away[farthest] > 0 else None
 
 
 def _distance(triangles: Float[np.ndarray, "triangles 3 3"], point: Vector, axis: Vector) -> float:

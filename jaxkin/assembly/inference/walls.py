@@ -8,9 +8,11 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from jaxkin.assembly.inference.stop_faces import ACROSS
+from jaxkin.contacts.boxes import boxes_of
 from jaxkin.contacts.contact import Contact
+from jaxkin.contacts.overlap import flat, overlap
 from jaxkin.geometry.part import Face, Part
-from jaxkin.geometry.pose import Vector
+from jaxkin.geometry.pose import Vector, perpendicular
 from jaxkin.geometry.surfaces import Plane
 
 MAX_SIDE_PLAY = 0.06
@@ -18,9 +20,14 @@ MAX_SIDE_PLAY = 0.06
 millimetre on each side of 20."""
 TOUCHING = 1e-3
 """Overlap of two faces, over the length that they have in common, that is none: rounding of the file, not a fit."""
+NARROW = 1e-5
+"""Area of what two faces share, seen along their normals, over the square of its length, that is none: faces which only
+meet at an edge do not look at each other."""
 
 LEAST_SIDES = 3
 """Sides of a polygon that keeps a hub from turning, at least: one flat, or two, may be beside it by chance."""
+ALIKE = 0.999
+"""Cosine of the angle between two normals of a polygon that are one direction: sides of a polygon of 60 have 0.995."""
 MAX_TURN = 0.1
 """Radians by which a hub turns to and fro on a polygon with play in all, at most: 0.1 on each side of a square of 5."""
 
@@ -82,15 +89,18 @@ def is_on_polygon(hub: Part, shaft: Part, point: Vector, axis: Vector, turn: flo
     """Tell whether a hub is on a square, a hexagon or the like of a shaft about an axis: faces along it look at each
     other in three directions or more, the nearest ones as far from the axis, and leave it a play of up to `turn`
     radians."""
-    nearest: dict[tuple[float, ...], float] = {}
+    nearest: list[tuple[Vector, float]] = []
     for normal, face, *_ in _beside([hub], [shaft], axis):
         away = float((point - face.triangles[0, 0]) @ normal)
         if away > 0:
-            direction = tuple(np.round(normal, 2) + 0.0)
-            nearest[direction] = min(away, nearest.get(direction, np.inf))
+            same = next((k for k, (each, _) in enumerate(nearest) if normal @ each > ALIKE), None)
+            if same is None:
+                nearest.append((normal, away))
+            else:
+                nearest[same] = nearest[same][0], min(away, nearest[same][1])
     if len(nearest) < LEAST_SIDES:
         return False
-    least, most = min(nearest.values()), max(nearest.values())
+    least, most = min(away for _, away in nearest), max(away for _, away in nearest)
     return most - least <= MAX_TURN * most and turns([hub], [shaft], point, axis) <= turn
 
 
@@ -130,16 +140,20 @@ def _opposed(
         opposite = np.flatnonzero(_are_opposite(plane.normal[None], against)[0]).tolist()
         if not opposite:
             continue
-        x = np.cross(plane.normal, np.eye(3)[np.argmin(np.abs(plane.normal))])
-        across = np.column_stack([x, np.cross(plane.normal, x)])
-        span = _span(a, across)
+        x = perpendicular(plane.normal)
+        y = np.cross(plane.normal, x)
+        own = flat(a.triangles, plane.point, x, y)
+        box = boxes_of(own.reshape(1, -1, 2))[0]
         for other, b in (others[k] for k in opposite):
             gap = float((other.point - plane.point) @ plane.normal)
-            if gap < -TOUCHING * np.max(span[1] - span[0]):
+            if gap < -TOUCHING * np.max(box[1] - box[0]):
                 continue
-            against_it = _span(b, across)
-            low, high = np.maximum(span[0], against_it[0]), np.minimum(span[1], against_it[1])
-            if np.all(high > low) and gap >= -TOUCHING * np.max(high - low):
+            against_it = flat(b.triangles, plane.point, x, y)
+            beside = boxes_of(against_it.reshape(1, -1, 2))[0]
+            if np.any(box[1] <= beside[0]) or np.any(beside[1] <= box[0]):
+                continue
+            shared = overlap(own, against_it, 0.0)
+            if shared is not None and shared.area > NARROW * shared.extent**2 and gap >= -TOUCHING * shared.extent:
                 found.append((plane, a, b, max(gap, 0.0)))
     return found
 
@@ -149,9 +163,3 @@ def _are_opposite(
 ) -> Bool[np.ndarray, "ones others"]:
     """Tell which unit normals are opposite, to `ACROSS` radians: |a + b|^2 = 2 + 2 a.b."""
     return ones @ others.T <= ACROSS**2 / 2 - 1
-
-
-def _span(face: Face, across: Float[np.ndarray, "3 2"]) -> tuple[Float[np.ndarray, "2"], Float[np.ndarray, "2"]]:
-    """Measure between what places a face is along two directions."""
-    places = face.triangles.reshape(-1, 3) @ across
-    return places.min(axis=0), places.max(axis=0)
