@@ -92,7 +92,7 @@ class _Reader:
         models = self.top.findall("model")
         if not models:
             raise ValueError(f"{self.file}: there is no <model> in it")
-        world, between = self._frames(self.top), self.top.findall("joint")
+        world, between = SdfFrames.of(self.file, self.top), self.top.findall("joint")
         for each in models:
             name = each.get("name", "")
             prefix = "" if len(models) == 1 and not between else name + IN_ANOTHER
@@ -115,10 +115,6 @@ class _Reader:
         couplings += gearboxes(self.file, self.gearboxes, self.links, self.joints, fixed, self.notes)
         joints, notes = tuple(self.joints), tuple(self.notes)
         return held_at(RobotModel(tuple(links), joints, tuple(fixed), motors, notes, tuple(couplings)), steps)
-
-    def _frames(self, model: Element) -> SdfFrames:
-        inner = {each.get("name", ""): self._frames(each) for each in model.iterfind("model")}
-        return SdfFrames(self.file, model, inner)
 
     def _read(self, model: Element, frames: SdfFrames, prefix: str, pose: Transform, static: bool) -> None:
         """Read the links and joints of a model at a pose in the world, and those of the models in it."""

@@ -47,6 +47,13 @@ def read_pose(element: Element | None, where: str) -> Transform:
     return placed(roll_pitch_yaw(unit * np.array(angles)), (x, y, z))
 
 
+def seven_numbers(pose: Transform) -> str:
+    """Write a pose as its place and its quaternion, x y z w: the `rotation_format` quat_xyzw."""
+    from scipy.spatial.transform import Rotation
+
+    return " ".join(map(repr, [*pose[:3, 3].tolist(), *Rotation.from_matrix(pose[:3, :3]).as_quat().tolist()]))
+
+
 def relative_to(element: Element, default: str) -> str:
     """Find the frame that the <pose> of an element is given in."""
     found = element.find("pose")
@@ -78,6 +85,11 @@ class SdfFrames:
         first = model.find("link")
         self.links = tuple(each.get("name", "") for each in model.iterfind("link"))
         self.first = "" if first is None else first.get("name", "")
+
+    @classmethod
+    def of(cls, file: str, model: Element) -> SdfFrames:
+        """Make the frames of a model, and of those in it."""
+        return cls(file, model, {each.get("name", ""): cls.of(file, each) for each in model.iterfind("model")})
 
     def canonical(self) -> str:
         """Name of the link that the frame of the model is on."""

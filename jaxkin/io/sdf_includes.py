@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement
 
-from jaxkin.io.sdf_frames import MODEL, is_true
+from jaxkin.io.robot_model import tag
+from jaxkin.io.sdf_frames import MODEL, SdfFrames, is_true, read_pose, relative_to, seven_numbers
 from jaxkin.io.xml_tree import read_xml
 
 MAX_INCLUDED = 20
@@ -50,16 +51,30 @@ def _found(include: Element, folder: Path, file: str) -> tuple[Path, str]:
     uri = (include.findtext("uri") or "").strip()
     name = uri.removeprefix("model://").removeprefix("file://")
     tries = [base / name for base in (folder, folder.parent, folder.parent.parent)]
-    found = next((t / "model.sdf" if t.is_dir() else t for t in tries if t.exists()), None)
+    found = next((_in_folder(t) if t.is_dir() else t for t in tries if t.exists()), None)
     if found is None or not found.is_file():
         raise FileNotFoundError(f"{file}: it includes {uri!r}, which is not there; put it beside {file}")
     return found, uri
 
 
+def _in_folder(folder: Path) -> Path:
+    """Find the file of a model in its folder: of those that its model.config names the one of the newest version."""
+    usual, config = folder / "model.sdf", folder / "model.config"
+    if usual.is_file() or not config.is_file():
+        return usual
+    named = [
+        (_version(each.get("version", "")), each.text.strip()) for each in read_xml(config).iter("sdf") if each.text
+    ]
+    return folder / max(named)[1] if named else usual
+
+
+def _version(text: str) -> list[int]:
+    return [int(part) for part in text.split(".")[:2] if part.isdigit()]
+
+
 def axis_in_model(axis: Element, version: str) -> bool:
     """Tell whether an axis is in the frame of its model, as it is in files before 1.5, and not in that of its joint."""
-    old = [int(part) for part in version.split(".")[:2] if part.isdigit()] < [1, 5]
-    return old or is_true(axis.findtext("use_parent_model_frame"))
+    return _version(version) < [1, 5] or is_true(axis.findtext("use_parent_model_frame"))
 
 
 def _axes_in_frames(joint: Element, version: str) -> None:
@@ -85,41 +100,35 @@ def _overridden(model: Element, include: Element) -> None:
 def _merged(model: Element, file: str) -> list[Element]:
     """List the elements of a model, with a frame in the place of its own, which they count from."""
     name = f"_merged__{model.get('name', '')}__model__"
-    first = model.find("link")
-    on = model.get("canonical_link") or ("" if first is None else first.get("name", ""))
+    frames = SdfFrames.of(file, model)
+    on = frames.canonical()
     if not on:
         raise ValueError(f"{file}: it merges the model {model.get('name')!r}, in which there is no <link>")
-    for each in model:
+    # its own pose is given in the model around it, whose frame has the name that its own has inside
+    own = Element("frame", {"name": name, "attached_to": on})
+    pose = SubElement(own, "pose", {"relative_to": relative_to(model, MODEL), "rotation_format": "quat_xyzw"})
+    pose.text = seven_numbers(read_pose(model, f"{file}: {tag(model)}") @ frames.placement())
+    inside = [each for each in model if each.tag not in ("pose", "static", "self_collide", "enable_wind")]
+    for each in inside:
         if each.tag in PLACED:
-            pose = each.find("pose")
-            pose = SubElement(each, "pose") if pose is None else pose
-            if not pose.get("relative_to") and not (each.tag == "frame" and each.get("attached_to")):
-                pose.set("relative_to", name)
+            written = each.find("pose")
+            written = SubElement(each, "pose") if written is None else written
+            if not written.get("relative_to") and not (each.tag == "frame" and each.get("attached_to")):
+                written.set("relative_to", name)
             if each.tag == "frame" and not each.get("attached_to"):
                 each.set("attached_to", on)
-    for each in _of_model(model):
+    for each in _of_model(inside):
         for key in ("relative_to", "attached_to", "expressed_in"):
             if each.get(key) == MODEL:
                 each.set(key, name)
         if each.tag in ("parent", "child") and (each.text or "").strip() == MODEL:
             each.text = name
-    if said := model.get("placement_frame"):
-        raise ValueError(
-            f"{file}: it merges the model {model.get('name')!r} placed by its frame {said!r}; include it without merge"
-        )
-    own = Element("frame", {"name": name, "attached_to": on})
-    pose = model.find("pose")
-    place = SubElement(own, "pose") if pose is None else pose
-    if pose is not None:
-        own.append(pose)
-    if not place.get("relative_to"):
-        place.set("relative_to", MODEL)
-    return [own, *(each for each in model if each.tag not in ("pose", "static", "self_collide", "enable_wind"))]
+    return [own, *inside]
 
 
-def _of_model(element: Element) -> Iterator[Element]:
-    """Yield what is inside a model, but for what is inside the models in it, whose own frame has the same name."""
-    for each in element:
+def _of_model(elements: Iterable[Element]) -> Iterator[Element]:
+    """Yield what is inside a model, but for what is inside the models in it, whose own frame has the same name; the
+    poses of these are given in the frames of the model."""
+    for each in elements:
         yield each
-        if each.tag != "model":
-            yield from _of_model(each)
+        yield from each.iterfind("pose") if each.tag == "model" else _of_model(each)
