@@ -19,7 +19,7 @@ from jaxkin.io.step_check import far_away, missing, without_tessellations
 from jaxkin.io.step_colors import one_color_each
 from jaxkin.io.step_convert import convert
 from jaxkin.io.step_glb import Instance, instances
-from jaxkin.io.step_placements import FilePlacements, check_not_mirrored
+from jaxkin.io.step_placements import FilePlacements, check_not_mirrored, whole_operators
 from jaxkin.io.step_rounding import corner_rounding, place_rounding, text_rounding
 from jaxkin.io.step_shapes import StepShapes, solids_alone
 from jaxkin.io.step_solid import Solid, make_solid
@@ -59,7 +59,7 @@ def read_step(
     not read in time. Warns where the reader met damages, or parts, faces or their triangles are not what the file says.
     """
     path = Path(path)
-    text = simple_occurrences(_checked(path))
+    text = whole_operators(simple_occurrences(_checked(path)))
     limit = TimeLimit.start(path, seconds)
     unit_name, metres = length_unit(text, path.name)
     off, relative = uncertainty(text), text_rounding(text)

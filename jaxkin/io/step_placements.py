@@ -30,6 +30,10 @@ STATEMENT = re.compile(r"\s*#(\d+)\s*=\s*(\w+)\s*\((.*)\)\s*", re.S)
 _REFERENCE = re.compile(r"#(\d+)|\$")
 
 _OPERATOR = "CARTESIAN_TRANSFORMATION_OPERATOR_3D"
+_OPERANDS = 5
+"""What an operator says of its placement: two axes, the origin, the scale and the third axis."""
+_DESCRIBED = ("''", "$")
+"""The name and the description that it has as a transformation."""
 _BY_OPERATOR = re.compile(r"\bREPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION\s*\(\s*#(\d+)")
 _SHAPE = re.compile(r"\s*#(\d+)\s*=\s*\w*SHAPE_REPRESENTATION\s*\(")
 
@@ -61,6 +65,24 @@ class FilePlacements:
         if not len(found) or (np.abs(found - found[0]) > _NONE).any():
             return None
         return found[0]
+
+
+def whole_operators(text: str) -> str:
+    """Write out the placements that many programs write by the names of their axes alone: readers leave a part in the
+    place where it was drawn, without a word, whose placement has not the name and the description of its kind, too."""
+    if _OPERATOR not in text:
+        return text
+    return ";".join(_whole_operator(each) if _OPERATOR in each else each for each in text.split(";"))
+
+
+def _whole_operator(statement: str) -> str:
+    found = STATEMENT.fullmatch(statement)
+    if found is None or found[2] != _OPERATOR:
+        return statement
+    name, *words = (word.strip() for word in found[3].split(","))
+    if not _OPERANDS <= len(words) < _OPERANDS + len(_DESCRIBED):
+        return statement
+    return f"\n#{found[1]}={_OPERATOR}({','.join([name, *_DESCRIBED, *words[-_OPERANDS:]])})"
 
 
 def check_not_mirrored(text: str, name: str) -> None:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from jaxkin.examples import path
-from jaxkin.geometry.pose import inverse
+from jaxkin.geometry.pose import apply, inverse
 from jaxkin.io.load import load
 from jaxkin.io.step_placements import FilePlacements, check_not_mirrored
 
@@ -146,3 +146,35 @@ def test_mirrored_placements_are_refused(used):
 @pytest.mark.parametrize("used", ["", MAPPED.format("DRAUGHTING_"), "#81=MAPPED_ITEM('',#99,#90);"])
 def test_mirrors_that_place_no_part_are_none(used):
     check_not_mirrored(AXES.format("-1.", "#93") + used, "a.step")
+
+
+def moved_by(axes, scale="1."):
+    """The shipped four-bar with its first occurrence, placed by an operator in place of two frames."""
+    text = path("fourbar").read_text()
+    first = re.findall(r"#(\d+) = ITEM_DEFINED_TRANSFORMATION", text)[0]
+    operator = (
+        f"#{first} = CARTESIAN_TRANSFORMATION_OPERATOR_3D({axes},#99994,{scale},#99993);#99991=DIRECTION('',(0.,1.,0.));"
+        "#99992=DIRECTION('',(-1.,0.,0.));#99993=DIRECTION('',(0.,0.,1.));#99994=CARTESIAN_POINT('',(500.,0.,0.));"
+    )
+    return re.sub(rf"#{first} = ITEM_DEFINED_TRANSFORMATION[^;]*;", operator, text)
+
+
+NAMED = ["''", "'',$", "'','',$"]
+"""What programs write before the axes of an operator: its name, and its name and description as a transformation."""
+
+
+@pytest.mark.parametrize("named", NAMED)
+def test_operators_place_parts_with_or_without_a_description(named, tmp_path):
+    """The reader knew the last form alone, and left the parts of the others where they were drawn."""
+    turned = np.array([[0, -1, 0, 500], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1.0]])
+    (tmp_path / "moved.step").write_text(moved_by(f"{named},#99991,#99992"))
+    (tmp_path / "drawn.step").write_text(moved_by(f"{NAMED[-1]},$,$").replace("(500.", "(0."))
+    drawn, moved = (load(tmp_path / f"{each}.step").parts[0].triangles for each in ("drawn", "moved"))
+    np.testing.assert_allclose(moved, apply(turned, drawn), atol=1e-4)  # single precision of 500 mm
+
+
+@pytest.mark.parametrize("named", NAMED)
+def test_operators_that_scale_are_refused(named, tmp_path):
+    (tmp_path / "a.step").write_text(moved_by(f"{named},#99991,#99992", "2."))
+    with pytest.raises(ValueError, match="is scaled or mirrored in its assembly: export it as a part"):
+        load(tmp_path / "a.step")
