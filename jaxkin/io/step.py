@@ -19,6 +19,7 @@ from jaxkin.io.step_check import far_away, missing, without_tessellations
 from jaxkin.io.step_colors import one_color_each
 from jaxkin.io.step_convert import convert
 from jaxkin.io.step_glb import Instance, instances
+from jaxkin.io.step_others import with_other_files
 from jaxkin.io.step_placements import FilePlacements, check_not_mirrored, whole_operators
 from jaxkin.io.step_rounding import corner_rounding, place_rounding, text_rounding
 from jaxkin.io.step_shapes import StepShapes, solids_alone
@@ -59,8 +60,8 @@ def read_step(
     not read in time. Warns where the reader met damages, or parts, faces or their triangles are not what the file says.
     """
     path = Path(path)
-    text = whole_operators(simple_occurrences(_checked(path)))
-    limit = TimeLimit.start(path, seconds)
+    text = _checked(with_other_files(_text(path), path, _text, MAX_STEP_BYTES), path.name)
+    limit = TimeLimit.start(path, seconds, len(text))
     unit_name, metres = length_unit(text, path.name)
     off, relative = uncertainty(text), text_rounding(text)
     placed = placed_parts(text, path.name)
@@ -129,20 +130,24 @@ def _instances(
     return found, damages
 
 
-def _checked(path: Path) -> str:
-    """Read the text of the file, if it can be a STEP file with solids."""
+def _text(path: Path) -> str:
+    """Read the text of a file, if it can be a STEP file."""
     if (size := check_file(path, "STEP file")) > MAX_STEP_BYTES:
         raise ValueError(
             f"{path.name} is {size / 1e6:.0f} MB, more than {MAX_STEP_BYTES / 1e6:.0f}: export it part by part"
         )
-    text = step_text(path.read_bytes(), path.name)
+    return whole_operators(simple_occurrences(step_text(path.read_bytes(), path.name)))
+
+
+def _checked(text: str, name: str) -> str:
+    """Raise ValueError where the text of the file `name` holds no solids; return it else."""
     if not _SOLIDS.search(text):
         if elsewhere := _documents(text):
             raise ValueError(
-                f"{path.name} holds no solids: it places those of other files, {listed(elsewhere)}; "
-                "export the assembly with all parts in one file"
+                f"{name} holds no solids: it places those of other files, {listed(elsewhere)}, which are not beside "
+                "it: put them there, or export the assembly with all parts in one file"
             )
-        raise ValueError(f"{path.name} holds no solids, only surfaces, curves or nothing: export the parts as solids")
+        raise ValueError(f"{name} holds no solids, only surfaces, curves or nothing: export the parts as solids")
     return text
 
 
@@ -167,7 +172,7 @@ def _tell_left_out(source: str, sheets: Sequence[str], bare: Sequence[str], docu
     if sheets:
         said.append(f"open surfaces of {listed([*map(repr, sheets)])} bound no solid")
     if bare:
-        elsewhere = f", and it refers to other files, {listed(documents)}" if documents else ""
+        elsewhere = f", and it refers to files that are not beside it, {listed(documents)}" if documents else ""
         said.append(f"it places {listed([*map(repr, bare)])} without a solid{elsewhere}")
     if said:
         warnings.warn(f"{source}: {'; '.join(said)}: left out; export them as solids if they matter", stacklevel=3)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 
 from jaxkin.io.names import cleaned
@@ -25,7 +25,7 @@ _SURFACES = {"SHELL_BASED_SURFACE_MODEL", "FACE_BASED_SURFACE_MODEL", "GEOMETRIC
 _NO_SOLID = {"AXIS2_PLACEMENT_3D", "CARTESIAN_POINT", "GEOMETRIC_CURVE_SET", *_SURFACES}
 """Items of shapes that are none, and make no solid together."""
 
-_DEFINITIONS = {"PRODUCT_DEFINITION", "PRODUCT_DEFINITION_WITH_ASSOCIATED_DOCUMENTS"}
+DEFINITIONS = {"PRODUCT_DEFINITION", "PRODUCT_DEFINITION_WITH_ASSOCIATED_DOCUMENTS"}
 
 _TELLING = re.compile(r"TESSELLATED_S|_SURFACE_MODEL|\bGEOMETRIC_SET")
 
@@ -64,21 +64,22 @@ class StepShapes:
     def without_solids(self) -> dict[str, str]:
         """Find the product definitions whose shapes hold no solid, with the names of their products."""
         solid = {self._group(number) for number in self.places if not self._is_bare(number)}
-        with_solids = {definition for definition, shape in self._defined() if self._group(shape) in solid}
-        unknown = {definition for definition, shape in self._defined() if shape not in self.places}
-        definitions = [number for number, kind in self.kinds.items() if kind in _DEFINITIONS]
+        with_solids = {definition for definition, shape in self.defined() if self._group(shape) in solid}
+        unknown = {definition for definition, shape in self.defined() if shape not in self.places}
+        definitions = [number for number, kind in self.kinds.items() if kind in DEFINITIONS]
         return {each: self._product(each) for each in definitions if each not in with_solids | unknown}
 
     def hidden(self) -> list[str]:
         """Name the products of the solids that the file hides, of itself or with the layer that they are on."""
         shapes = {item: number for number in self.places for item in self.items(number)}
-        hidden = self._named(self._of_kind("INVISIBILITY"), ("STYLED_ITEM", "LAYER_ASSIGNMENT", "REPRESENTATION"))
-        named = {each for number in hidden for each in self._references(number)}
+        hidden = self._named(self.of_kind("INVISIBILITY"), ("STYLED_ITEM", "LAYER_ASSIGNMENT", "REPRESENTATION"))
+        named = {each for number in hidden for each in self.references(number)}
         solids = {each for each in named if self.kinds.get(each) in EXACT | _TESSELLATED}
         whole = {number for number in hidden | named if not self._is_bare(number)}
         return self._names(self._products_of(whole | {shapes[each] for each in solids if each in shapes}))
 
-    def _of_kind(self, kind: str) -> list[str]:
+    def of_kind(self, kind: str) -> list[str]:
+        """List the numbers of the statements of a kind."""
         return [number for number, own in self.kinds.items() if own == kind]
 
     def items(self, number: str) -> list[str]:
@@ -96,23 +97,30 @@ class StepShapes:
         shells = self._named({number}, ("SHELL", "FACE_SET"))
         faces = self._named(shells | self._named(shells, ("SHELL",)), ("FACE",))
         loops = self._named(self._named(faces | self._named(faces, ("FACE",)), ("BOUND",)), ("EDGE_LOOP",))
-        sides = [side for loop in loops for side in self._references(loop)]
-        return 1 in Counter(edge for side in sides for edge in self._references(side)).values()
+        sides = [side for loop in loops for side in self.references(loop)]
+        return 1 in Counter(edge for side in sides for edge in self.references(side)).values()
 
     def _named(self, numbers: Iterable[str], kinds: tuple[str, ...]) -> set[str]:
         """Find what some statements name whose kind ends so."""
-        named = (each for number in numbers for each in self._references(number))
+        named = (each for number in numbers for each in self.references(number))
         return {each for each in named if self.kinds.get(each, "").endswith(kinds)}
 
-    def _references(self, number: str) -> list[str]:
+    def rename(self, number: str, names: Mapping[str, str]) -> None:
+        """Let a statement name others in place of those that it names."""
+        place = self.places[number]
+        head, equals, rest = self.statements[place].partition("=")
+        self.statements[place] = head + equals + _NUMBER.sub(lambda own: f"#{names.get(own[1], own[1])}", rest)
+
+    def references(self, number: str) -> list[str]:
+        """List the numbers that a statement names, in turn."""
         return _NUMBER.findall(_STRING.sub("", self.bodies.get(number, "")))
 
-    def _defined(self) -> Iterator[tuple[str, str]]:
+    def defined(self) -> Iterator[tuple[str, str]]:
         """List the product definitions that have shapes, each with a representation of it."""
         for number, kind in self.kinds.items():
             if kind == "SHAPE_DEFINITION_REPRESENTATION":
-                shape, representation = (*self._references(number), "", "")[:2]
-                for definition in self._references(shape)[:1]:
+                shape, representation = (*self.references(number), "", "")[:2]
+                for definition in self.references(shape)[:1]:
                     yield definition, representation
 
     @cached_property
@@ -121,7 +129,7 @@ class StepShapes:
         import networkx as nx
 
         related = (number for number, kind in self.kinds.items() if kind.endswith("REPRESENTATION_RELATIONSHIP"))
-        named = map(self._references, related)
+        named = map(self.references, related)
         pairs = [(pair[0], pair[1]) for pair in named if len(pair) == 2]
         return {each: min(group) for group in nx.connected_components(nx.Graph(pairs)) for each in group}
 
@@ -131,15 +139,15 @@ class StepShapes:
     def _products_of(self, representations: Iterable[str]) -> list[str]:
         """Find the product definitions of some representations."""
         wanted = set(map(self._group, representations))
-        return [definition for definition, shape in self._defined() if self._group(shape) in wanted]
+        return [definition for definition, shape in self.defined() if self._group(shape) in wanted]
 
     def _names(self, definitions: Iterable[str]) -> list[str]:
         return [*dict.fromkeys(filter(None, map(self._product, definitions)))]
 
     def _product(self, definition: str) -> str:
         """Find the name of the product of a definition, cleaned; "" where there is none."""
-        for formation in self._references(definition)[:1]:
-            for product in self._references(formation)[:1]:
+        for formation in self.references(definition)[:1]:
+            for product in self.references(formation)[:1]:
                 if self.kinds.get(product) == "PRODUCT":
                     named = map(string_value, _STRING.findall(self.bodies[product])[1::-1])
                     return next(filter(None, map(cleaned, named)), "")

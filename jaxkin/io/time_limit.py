@@ -37,15 +37,16 @@ class TimeLimit:
     """On the clock of `time.thread_time`."""
 
     @classmethod
-    def start(cls, path: Path, seconds: float | None = None) -> TimeLimit:
-        """Start the time of a file that exists: `seconds`, or what its size allows.
+    def start(cls, path: Path, seconds: float | None = None, size: int | None = None) -> TimeLimit:
+        """Start the time of a file that exists: `seconds`, or what its size allows, which is `size` where others are
+        read with it.
 
         Raises ValueError where `seconds` is no positive number.
         """
         number = isinstance(seconds, int | float) and not isinstance(seconds, bool)
         if seconds is not None and not (number and 0 < seconds < math.inf):
             raise ValueError(f"seconds is the time allowed to read a file, a positive number; got {seconds!r}")
-        size = path.stat().st_size
+        size = path.stat().st_size if size is None else size
         allowed = SECONDS + SECONDS_PER_MB * size / 1e6 if seconds is None else float(seconds)
         return cls(path.name, size, allowed, time.thread_time() + allowed)
 

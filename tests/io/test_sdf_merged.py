@@ -59,7 +59,8 @@ def test_a_folder_of_a_model_says_in_its_config_which_file_is_the_model(tmp_path
     arm = tmp_path / "arm"
     arm.mkdir()
     arm.joinpath("model.config").write_text(
-        "<model><sdf version='1.6'>old.sdf</sdf><sdf version='1.10'>new.sdf</sdf><sdf version='1.9'>mid.sdf</sdf></model>"
+        "<model><sdf version='1.6'>old.sdf</sdf><sdf version='1.10'>new.sdf</sdf><sdf version='1.9'>mid.sdf</sdf>"
+        "</model>"
     )
     for name in ("old", "mid"):
         arm.joinpath(f"{name}.sdf").write_text("<sdf version='1.6'><model name='x'/></sdf>")

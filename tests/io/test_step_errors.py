@@ -34,7 +34,7 @@ RNG = np.random.default_rng(0)
         ((DATA / "sheet.step").read_bytes(), "bad.step holds no solids, only surfaces"),
         (
             b"ISO-10303-21;\nDATA;\n#1=DOCUMENT_FILE('arm.stp','','',#2,'','');\nENDSEC;\nEND-ISO-10303-21;\n",
-            "bad.step holds no solids: it places those of other files, arm.stp; export the assembly with all parts",
+            "bad.step holds no solids: it places those of other files, arm.stp, which are not beside it: put them",
         ),
         # syntax that breaks off in the middle, and a section of data that never ends
         (CAM[: len(CAM) // 2] + b"\nENDSEC;\nEND-ISO-10303-21;\n", "bad.step cannot be read as STEP"),

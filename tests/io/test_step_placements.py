@@ -153,7 +153,8 @@ def moved_by(axes, scale="1."):
     text = path("fourbar").read_text()
     first = re.findall(r"#(\d+) = ITEM_DEFINED_TRANSFORMATION", text)[0]
     operator = (
-        f"#{first} = CARTESIAN_TRANSFORMATION_OPERATOR_3D({axes},#99994,{scale},#99993);#99991=DIRECTION('',(0.,1.,0.));"
+        f"#{first} = CARTESIAN_TRANSFORMATION_OPERATOR_3D({axes},#99994,{scale},#99993);"
+        "#99991=DIRECTION('',(0.,1.,0.));"
         "#99992=DIRECTION('',(-1.,0.,0.));#99993=DIRECTION('',(0.,0.,1.));#99994=CARTESIAN_POINT('',(500.,0.,0.));"
     )
     return re.sub(rf"#{first} = ITEM_DEFINED_TRANSFORMATION[^;]*;", operator, text)

@@ -108,7 +108,7 @@ def test_surfaces_without_a_rim_are_kept(tmp_path):
         (("#90000=GEOMETRIC_CURVE_SET('',(#12));",), ""),
         (
             ("#90001=DOCUMENT_FILE('rocker.stp','','',#90002,'',$);", "#90002=DOCUMENT_TYPE('');"),
-            ", and it refers to other files, rocker.stp",
+            ", and it refers to files that are not beside it, rocker.stp",
         ),
     ],
 )
