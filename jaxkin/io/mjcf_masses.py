@@ -90,5 +90,5 @@ def _said(found: Element, at: Transform, shapes: Shapes, where: str, notes: list
     if (full := found.get("fullinertia")) is not None:
         six = numbers(full, 6, where)
     else:
-        six = np.concatenate([numbers(found.get("diaginertia"), 3, where), np.zeros(3)])
+        six = np.concatenate([numbers(found.get("diaginertia"), 3, where, (0, 0, 0)), np.zeros(3)])
     return inertial(mass, at @ shapes.compiler.pose(found.attrib, where), six, where, notes)

@@ -77,6 +77,18 @@ class Shapes:
         return LinkShape(pose, "mesh", scale, f"{folder}/{file}" if folder else file, reference=reference)
 
 
+def _hull(points: np.ndarray) -> np.ndarray:
+    """Make the triangles (n, 3, 3) of the convex hull of points (m, 3), wound outwards."""
+    from scipy.spatial import ConvexHull
+
+    hull = ConvexHull(points)
+    corners = points[hull.simplices]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    inwards = np.einsum("fi,fi->f", normals, hull.equations[:, :3]) < 0
+    corners[inwards] = corners[inwards, ::-1]
+    return corners
+
+
 def group_of(said: dict[str, str]) -> int:
     """Return the group of a solid: 0 where none is written."""
     text = said.get("group", "0").strip()
@@ -85,7 +97,7 @@ def group_of(said: dict[str, str]) -> int:
 
 def _inline(said: dict[str, str], where: str) -> np.ndarray:
     """Read the triangles (n, 3, 3) of a mesh that the model holds itself: of its faces, else of its convex hull."""
-    from scipy.spatial import ConvexHull, QhullError
+    from scipy.spatial import QhullError
 
     try:
         points = np.array(said["vertex"].split(), float).reshape(-1, 3)
@@ -93,7 +105,7 @@ def _inline(said: dict[str, str], where: str) -> np.ndarray:
         if not np.isfinite(points).all() or (len(faces) and not 0 <= faces.min() <= faces.max() < len(points)):
             raise ValueError("numbers that are not finite, or faces of vertices that are not there")
         if not len(faces):
-            faces = ConvexHull(points).simplices
+            return _hull(points)
     except (ValueError, QhullError) as error:
         raise ValueError(f"{where}: its vertices and faces are no triangles: {str(error).splitlines()[0]}") from error
     return points[faces]

@@ -26,6 +26,9 @@ MAIN = "main"
 TURNS = ("quat", "axisangle", "euler", "xyaxes", "zaxis")
 """Attributes that give the orientation of an element, each in its way."""
 
+PARTLY = ("size", "polycoef")
+"""Lists of which an element may write the first numbers only: the others are those of its class."""
+
 WRITTEN_OUT = "(written out)"
 """Class of elements that have all attributes themselves: those of attached models."""
 
@@ -202,6 +205,9 @@ class Defaults:
 
 
 def _over(given: Mapping[str, str], said: Mapping[str, str]) -> dict[str, str]:
-    """Put attributes over those of a class; an orientation in one way over one in another."""
+    """Put attributes over those of a class; an orientation in one way over one in another, and of lists that may be
+    shorter those numbers that are written."""
     turned = any(key in said for key in TURNS)
-    return {key: value for key, value in given.items() if not (turned and key in TURNS)} | dict(said)
+    kept = {key: value for key, value in given.items() if not (turned and key in TURNS)}
+    longer = {key: (said[key].split(), kept[key].split()) for key in PARTLY if key in said and key in kept}
+    return kept | dict(said) | {key: " ".join(own + rest[len(own) :]) for key, (own, rest) in longer.items()}

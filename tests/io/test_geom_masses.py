@@ -98,6 +98,7 @@ def test_a_mesh_is_moved_to_its_reference_before_it_is_scaled(tmp_path):
     np.testing.assert_allclose(solid.triangles.reshape(-1, 3).min(axis=0), [-0.05, 0, 0], atol=1e-12)
 
 
+FACES, MIRRORED = "face='0 2 1 0 1 3 1 2 3 0 3 2'", "scale='1 -2 1'"
 TURNED, PLACED = "scale='.1 .2 .3' refpos='.5 0 0' refquat='1 .2 .3 .4'", "pos='1 2 3'"
 ALL = (
     "<geom type='capsule' size='.1 .3' pos='1 0 0' euler='10 20 30' mass='1.3'/>"
@@ -113,8 +114,11 @@ ALL = (
         model("<geom size='.1' mass='0' pos='1 0 0'/><geom size='.1'/>"),
         model(f"<frame pos='1 0 0' euler='40 0 90'>{ALL}</frame>"),
         f"<mujoco>{MESH.format(TURNED, PLACED)}</mujoco>",
+        f"<mujoco>{MESH.format(TURNED, PLACED)}</mujoco>".replace(FACES, ""),
+        f"<mujoco>{MESH.format(MIRRORED, PLACED)}</mujoco>".replace(FACES, ""),
+        model("<geom type='capsule' size='.05' mass='1'/>", "<default><geom size='.1 .3'/></default>"),
     ],
-    ids=["all kinds", "one without mass", "in a frame", "mesh"],
+    ids=["all kinds", "one without mass", "in a frame", "mesh", "hull", "mirrored hull", "one size of two"],
 )
 def test_masses_are_those_of_mujoco(text, tmp_path):
     mujoco = pytest.importorskip("mujoco")
@@ -128,6 +132,18 @@ def test_masses_are_those_of_mujoco(text, tmp_path):
     np.testing.assert_allclose(centre, data.xipos[body], atol=1e-12)
     expected = turn @ np.diag(known.body_inertia[body]) @ turn.T
     np.testing.assert_allclose(inertia, expected, atol=1e-8 * np.abs(expected).max())
+
+
+def test_a_body_on_another_one_may_be_a_point(tmp_path):
+    """An <inertial> without moments, which MuJoCo takes where the body does not move on its own."""
+    inside = (
+        "<inertial pos='0 0 0' mass='2' diaginertia='1 1 1'/><body name='p'><inertial pos='2 0 0' mass='2'/></body>"
+    )
+    mechanism = loaded(model(inside).replace("pos='1 2 3' euler='10 20 30'", ""), tmp_path)
+    total = jk.masses(mechanism)
+    assert float(total.total) == 4.0
+    centre = np.asarray(total.mass) @ np.asarray(total.centre) / 4.0
+    np.testing.assert_allclose(centre, [1, 0, 0], atol=1e-12)
 
 
 @pytest.mark.parametrize("option", ["<option gravity='0 -9.81 0'/>", "<option><flag gravity='disable'/></option>"])
