@@ -69,6 +69,8 @@ class Part:
     """The name in the file, before it was cleaned and numbered; empty where the file gives none."""
     inertial: Inertial | None = None
     """What the file says that the part weighs, world axes; None where it says nothing."""
+    density: float | None = None
+    """What the file says of its material, kg/m^3; None where it says nothing."""
     is_solid: bool = True
     """Whether the triangles are those of the part: False where its file has none, and a small box marks its place."""
 

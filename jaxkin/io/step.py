@@ -19,6 +19,7 @@ from jaxkin.io.step_check import far_away, missing, without_tessellations
 from jaxkin.io.step_colors import one_color_each
 from jaxkin.io.step_convert import convert
 from jaxkin.io.step_glb import Instance, instances
+from jaxkin.io.step_materials import materials
 from jaxkin.io.step_others import with_other_files
 from jaxkin.io.step_placements import FilePlacements, check_not_mirrored, whole_operators
 from jaxkin.io.step_rounding import corner_rounding, place_rounding, text_rounding
@@ -66,6 +67,7 @@ def read_step(
     off, relative = uncertainty(text), text_rounding(text)
     placed = placed_parts(text, path.name)
     check_not_mirrored(text, path.name)
+    of_material = materials(text)
     text, sheets = solids_alone(text)
     read = partial(instances, products=nameless_occurrences(text), placements=FilePlacements(text))
     found, defects = _instances(one_color_each(text).encode("latin-1"), read, limit)
@@ -84,6 +86,7 @@ def read_step(
         pose[:3, 3] /= metres
         part, damages = solids[key].placed(name, pose, instance.color)
         rounded = place_rounding(instance, relative) / metres
+        material = of_material.get(cleaned(instance.names[1]))
         parts.append(
             replace(
                 part,
@@ -91,6 +94,8 @@ def read_step(
                 original_name=next(iter(_given(instance)), ""),
                 vertex_resolution=rounded + corner_rounding(instance) / metres,
                 surface_resolution=rounded,
+                density=material and material.density,
+                notes=(*part.notes, *([material.note] if material else [])),
             )
         )
         defects += [f"{name!r}: {damage}" for damage in damages]

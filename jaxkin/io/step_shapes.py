@@ -67,7 +67,7 @@ class StepShapes:
         with_solids = {definition for definition, shape in self.defined() if self._group(shape) in solid}
         unknown = {definition for definition, shape in self.defined() if shape not in self.places}
         definitions = [number for number, kind in self.kinds.items() if kind in DEFINITIONS]
-        return {each: self._product(each) for each in definitions if each not in with_solids | unknown}
+        return {each: self.product(each) for each in definitions if each not in with_solids | unknown}
 
     def hidden(self) -> list[str]:
         """Name the products of the solids that the file hides, of itself or with the layer that they are on."""
@@ -142,9 +142,9 @@ class StepShapes:
         return [definition for definition, shape in self.defined() if self._group(shape) in wanted]
 
     def _names(self, definitions: Iterable[str]) -> list[str]:
-        return [*dict.fromkeys(filter(None, map(self._product, definitions)))]
+        return [*dict.fromkeys(filter(None, map(self.product, definitions)))]
 
-    def _product(self, definition: str) -> str:
+    def product(self, definition: str) -> str:
         """Find the name of the product of a definition, cleaned; "" where there is none."""
         for formation in self.references(definition)[:1]:
             for product in self.references(formation)[:1]:

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 
 from jaxkin.geometry.units import METRES
 
-_PREFIXES = {"MICRO": 1e-6, "MILLI": 1e-3, "CENTI": 1e-2, "DECI": 1e-1, "DECA": 1e1, "HECTO": 1e2, "KILO": 1e3}
+PREFIXES = {"MICRO": 1e-6, "MILLI": 1e-3, "CENTI": 1e-2, "DECI": 1e-1, "DECA": 1e1, "HECTO": 1e2, "KILO": 1e3}
 
 _DEPTH = 5
 """A unit is defined by another one so many times at most; some files lead round in a circle."""
@@ -55,20 +55,20 @@ def _length_units(text: str) -> Iterator[tuple[str, float | None]]:
         context = re.search(r"GLOBAL_UNIT_ASSIGNED_CONTEXT\s*\(\s*\(([^()]*)\)", statement)
         for number in re.findall(r"#(\d+)", context[1]) if context else ():
             if "LENGTH_UNIT" in units.get(number, ""):
-                yield units[number], _metres(units, number)
+                yield units[number], metres_of(units, number)
 
 
-def _metres(units: Mapping[str, str], number: str, depth: int = 0) -> float | None:
+def metres_of(units: Mapping[str, str], number: str, depth: int = 0) -> float | None:
     """Find how many metres a unit has; None where that is not said, or makes no sense."""
     said = units.get(number, "")
     if si := re.search(r"SI_UNIT\s*\(\s*(?:\.(\w+)\.|\$)\s*,\s*\.METRE\.", said):
-        return _PREFIXES.get(si[1]) if si[1] else 1.0
+        return PREFIXES.get(si[1]) if si[1] else 1.0
     conversion = re.search(r"CONVERSION_BASED_UNIT\s*\(\s*'[^']*'\s*,\s*#(\d+)", said)
     measure = conversion and re.search(
         r"MEASURE_WITH_UNIT\s*\(\s*(?:\w+\s*\()?\s*([+-]?[\d.]+(?:[Ee][+-]?\d+)?)\s*\)?\s*,\s*#(\d+)",
         units.get(conversion[1], ""),
     )
-    base = _metres(units, measure[2], depth + 1) if measure and depth < _DEPTH else None
+    base = metres_of(units, measure[2], depth + 1) if measure and depth < _DEPTH else None
     try:
         return float(measure[1]) * base if measure and base else None
     except ValueError:  # points without end

@@ -130,7 +130,8 @@ def masses(
     for each part, whose names may have "*", where a full name goes before "*". `given` has for a part its `jk.Mass`, or
     only its kilograms: it needs no density, and on mechanisms by hand no solid. Files of robots and exports of CAD
     systems say what their parts weigh: that goes before a density for all parts ("*" too), and not before one that
-    names the part. Fixed parts need no mass.
+    names the part. The density of a material that a STEP file says is taken where `density` has none. Fixed parts need
+    no mass.
 
     Works inside `jit` and `grad` with respect to densities and given masses. Raises ValueError for parts of which no
     mass can be found, with what to write; for solids that are open, inertias that no body has, and unknown parts and
@@ -152,8 +153,8 @@ def masses(
             rows.append((0.0, np.zeros(3), np.zeros((3, 3))))
         elif name in parts and name not in named and (own := parts[name].inertial) is not None:
             rows.append((own.mass, own.centre, own.inertia))
-        elif name in solids and name in densities:
-            rows.append(_of_solid(solids[name], densities[name], METRES[mechanism.unit]))
+        elif name in solids and (own := densities.get(name, solids[name].density)) is not None:
+            rows.append(_of_solid(solids[name], own, METRES[mechanism.unit]))
         else:
             missing.append(name)
     if missing:
