@@ -2,35 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Bool, Float, Int
+from jaxtyping import Bool, Float
 
 from jaxkin._arguments import by_name, check_known, check_mechanism, numbers
-from jaxkin._runs import runs
+from jaxkin._names import listed
 from jaxkin.effects.forces.acting import STANDARD_GRAVITY, all_applied, loads_and_frictions
 from jaxkin.effects.forces.drive import drive_forces
 from jaxkin.effects.forces.given import Applied, rows_per_pose
 from jaxkin.effects.forces.masses import Masses
 from jaxkin.effects.forces.reactions import HELD, Reactions, reactions
 from jaxkin.effects.forces.rounding import force_terms, weights_of_all
+from jaxkin.effects.forces.vanishing import WITHIN, PerPose, vanishing
 from jaxkin.effects.forces.wrenches import units_of
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.linkage.coordinates import coordinates
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
+from jaxkin.solve.status import Status
 
-PerPose = Float[np.ndarray, " poses"]
-
-MAX_REFINEMENTS = 60
-"""Steps that refine a sign change, at most: halving alone gains a digit in three."""
-WITHIN = 1e-12
-"""Width of a sign change, or length of a step, over the range, that is small enough; in float32 a unit of rounding."""
 MAX_NAMED = 4
 """Coordinates without a drive that a printed result names at most: one freedom shows in several."""
 NO_FORCE = 16
@@ -65,13 +61,28 @@ class Equilibrium:
     """The range that was searched, rising."""
     forces: Float[np.ndarray, " poses"]
     """Drive forces there, newton metres or newtons; NaN at poses that are not closed (`motion.closed`)."""
+    limited: Bool[np.ndarray, " poses"]
+    """At which poses of the range a joint is beyond its limits; of equilibria `beyond_limits` tells."""
+
+    @property
+    def beyond_limits(self) -> Mapping[str, Float[np.ndarray, " equilibria"]]:
+        """How far coordinates are beyond the limits of their joints in the equilibria: see `Motion.beyond_limits`.
+
+        Empty where all are within. Equilibria beyond are found, too: the mechanism would rest on a stop before.
+        """
+        return self.motion.beyond_limits
 
     def __str__(self) -> str:
         poses = f"{self.inputs[0]:.4g} to {self.inputs[-1]:.4g}"
         if unknown := int(np.isnan(self.forces).sum()):
             poses += f"; at {unknown} of its {len(self.inputs)} poses, which are not closed, nothing is known"
-        lines = [f"  everywhere from {low:.9g} to {high:.9g}, indifferent" for low, high in self.indifferent]
-        lines += [f"  {value:.9g}, {words}" for value, (words, _) in zip(self.values, self._told(), strict=True)]
+        lines = [
+            f"  everywhere from {low:.9g} to {high:.9g}, indifferent{self._limited(low, high)}"
+            for low, high in self.indifferent
+        ]
+        for number, (value, (words, _)) in enumerate(zip(self.values, self._told(), strict=True)):
+            over = listed([each for each, far in self.beyond_limits.items() if far[number]])
+            lines.append(f"  {value:.9g}, {words}{f', but beyond the limits of {over}' if over else ''}")
         if not lines:
             return f"No equilibrium of {self.name} from {poses}"
         count = "1 equilibrium" if len(lines) == 1 else f"{len(lines)} equilibria"
@@ -89,6 +100,12 @@ class Equilibrium:
             f"{f' and {more} more' if more else ''}, without a drive; hold one of them, as in "
             f"{{{self.name!r}: ..., {next(iter(self.out_of_balance))!r}: 0.0}}, or balance it"
         ]
+
+    def _limited(self, low: float, high: float) -> str:
+        """Say at how many poses of an interval a joint is beyond its limits."""
+        inside = (self.inputs >= low) & (self.inputs <= high)
+        limited = int(np.sum(self.limited & inside))
+        return f", but a joint is beyond its limits at {limited} of its {inside.sum()} poses" if limited else ""
 
     def _told(self) -> list[tuple[str, str]]:
         """Say of each single equilibrium whether it is stable, in words and by a marker."""
@@ -136,7 +153,8 @@ def equilibrium(
     in a horizontal plane, the mechanism is indifferent from the first to the last of them. Other arguments are those
     of `jk.drive_forces`, for all poses alike. Poses must follow each other on the branch of the assembled pose; no
     equilibrium is found between poses that are not closed (`motion.closed`). Freedoms that nothing drives or holds may
-    be out of balance there: these are told (`out_of_balance`).
+    be out of balance there: these are told (`out_of_balance`), and so are equilibria in which a joint is beyond its
+    limits (`beyond_limits`).
 
     Raises ValueError for ranges of several coordinates, for fewer than two poses, inside `jit`, `vmap` and `grad`, and
     as `jk.drive_forces`.
@@ -167,9 +185,11 @@ def equilibrium(
         # so that all share a compiled program
         return posed(np.pad(values, (0, max(0, len(inputs) - len(values))), mode="edge"))
 
-    def force(values: PerPose) -> Float[np.ndarray, " poses"]:
-        found = drive_forces(of_one_length(values), masses, gravity=gravity, applied=given)
-        return np.asarray(found.forces[name], float)[: len(values)]
+    def force_along(poses: Motion) -> PerPose:
+        return np.asarray(drive_forces(poses, masses, gravity=gravity, applied=given).forces[name], float)
+
+    def force(values: PerPose) -> PerPose:
+        return force_along(of_one_length(values))[: len(values)]
 
     def rounding_of(values: PerPose) -> PerPose:
         terms = force_terms(of_one_length(values), name, masses, gravity, given)
@@ -178,10 +198,11 @@ def equilibrium(
     def vanishes(values: PerPose) -> Bool[np.ndarray, " poses"]:
         return np.abs(force(values)) <= rounding_of(values)
 
-    forces, rounding = force(inputs), float(jnp.finfo(float).eps)
+    searched, rounding = posed(inputs), float(jnp.finfo(float).eps)
+    forces = force_along(searched)
     least = rounding_of(inputs)
     forces = np.where(np.abs(forces) <= least, 0.0, forces)
-    values, indifferent = _vanishing(force, vanishes, inputs, forces, max(WITHIN, rounding))
+    values, indifferent = vanishing(force, vanishes, inputs, forces, max(WITHIN, rounding))
     # of a central difference: the cube root of rounding
     step = rounding ** (1 / 3) * np.ptp(inputs)
     beside = force(np.concatenate([values - step, values + step])) if len(values) else np.zeros(0)
@@ -204,6 +225,7 @@ def equilibrium(
         {each: float(load.max()) for each, load in loads.items()},
         inputs,
         forces,
+        np.asarray(searched.status) == Status.LIMITED.value,
     )
 
 
@@ -230,30 +252,6 @@ def _range_and_held(drive: Mapping[Any, Any]) -> tuple[str, PerPose, dict[str, P
     return key, inputs, given
 
 
-def _vanishing(
-    force: Callable[[PerPose], PerPose],
-    vanishes: Callable[[PerPose], Bool[np.ndarray, " poses"]],
-    inputs: PerPose,
-    forces: PerPose,
-    within: float,
-) -> tuple[PerPose, Int[np.ndarray, "intervals 2"]]:
-    """Find where a force vanishes along a range: in single displacements, rising, and throughout which intervals.
-
-    `forces` are those of the range, zero where they are none but for rounding, as `vanishes` tells of any displacement.
-    Displacements are refined to `within` of the range. Intervals are told by the numbers of their first and last pose.
-    """
-    none = forces == 0.0
-    between = none[:-1] & none[1:]  # two equilibria may be neighbours, with forces between them
-    if between.any():
-        between[between] = vanishes(0.5 * (inputs[:-1] + inputs[1:])[between])
-    at_zero = np.flatnonzero(none & ~np.append(between, False) & ~np.append(False, between))
-    changing = np.flatnonzero(forces[:-1] * forces[1:] < 0)
-    ends = inputs[changing], inputs[changing + 1], forces[changing], forces[changing + 1]
-    refined, found = _refined(force, *ends, within * np.ptp(inputs))
-    # runs of gaps between poses: the index behind the last gap is that of the last pose
-    return np.sort(np.concatenate([inputs[at_zero], refined[found]])), runs(between)
-
-
 def _has_others(mechanism: Mechanism, driven: int) -> bool:
     """Tell whether a mechanism has more freedoms that are not idle than are driven or held."""
     found = mechanism.mobility()
@@ -268,33 +266,3 @@ def _out_of_balance(found: Reactions, most: float) -> dict[str, PerPose]:
         for k, full_name in enumerate(joint.full_names)
     }
     return {name: np.where(load > most, load, 0.0) for name, load in loads.items() if np.any(load > most)}
-
-
-def _refined(
-    force: Callable[[PerPose], PerPose], low: PerPose, high: PerPose, at_low: PerPose, at_high: PerPose, within: float
-) -> tuple[PerPose, Bool[np.ndarray, " poses"]]:
-    """Refine sign changes, all at once: false position with halved ends (Illinois), halving where that is slow.
-
-    Returns the displacements, and whether the force vanishes there. At a dead point it changes its sign through
-    infinity: the ends of the interval, as it narrows, have larger forces, and not smaller ones.
-    """
-    low, high, at_low, at_high = (each.copy() for each in (low, high, at_low, at_high))
-    best, left = np.where(np.abs(at_low) < np.abs(at_high), low, high), np.minimum(np.abs(at_low), np.abs(at_high))
-    first = np.abs(at_low) * np.abs(at_high)
-    weights = np.ones((2, len(low)))
-    for step in range(MAX_REFINEMENTS):
-        if not len(low) or np.all((high - low <= within) | (left == 0)):
-            break
-        one, other = weights[0] * at_low, weights[1] * at_high
-        middle = (low * other - high * one) / (other - one)
-        middle = np.where((step % 3 == 2) | ~((middle > low) & (middle < high)), (low + high) / 2, middle)
-        if step % 3 != 2 and np.all(np.abs(middle - best) <= within):
-            break
-        here = force(middle)
-        better = np.abs(here) < left
-        best, left = np.where(better, middle, best), np.where(better, np.abs(here), left)
-        below = here * at_low > 0
-        weights = np.where(below, [np.ones_like(low), weights[1] / 2], [weights[0] / 2, np.ones_like(low)])
-        low, at_low = np.where(below, middle, low), np.where(below, here, at_low)
-        high, at_high = np.where(below, high, middle), np.where(below, at_high, here)
-    return best, np.abs(at_low) * np.abs(at_high) < first

@@ -7,7 +7,7 @@ from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
 import jaxkin as jk
-from jaxkin.effects.forces.equilibrium import _refined
+from jaxkin.effects.forces.vanishing import refined_sign_changes
 from reference.energies import FOURBAR_MASSES, fourbar
 from reference.mechanisms import Z, planar_fourbar
 from reference.planar import fourbar as fourbar_angles
@@ -177,7 +177,7 @@ def test_float32_finds_the_same(poses):
 def test_where_a_force_goes_to_infinity_it_does_not_vanish():
     """At 0.4 there is a pole, at 1.3 a zero; an end of the range may lie beside the pole as nearly as it likes."""
     ends = np.array([0.0, 0.4 - 1e-15, 1.0])
-    values, vanishes = _refined(
+    values, vanishes = refined_sign_changes(
         lambda x: (x - 1.3) / (x - 0.4),
         ends,
         ends + 0.5,
