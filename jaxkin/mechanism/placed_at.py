@@ -34,22 +34,38 @@ def mechanism_at(mechanism: Mechanism, motion: Motion | Pose, index: int) -> Mec
     Raises ValueError for a pose that is not closed, for the motion of a mechanism with other joints, and inside `jit`,
     `vmap` and `grad`.
     """
-    motion = motion.motion if isinstance(motion, Pose) else motion
-    check_motion(motion, "poses to assemble in")
+    motion = motion_of(motion, "poses to assemble in")
     if traced((mechanism, motion)):
         raise ValueError("at() is for numbers: inside jit, vmap and grad sweep the mechanism instead")
     own = {joint.name: joint.parts for joint in mechanism.all_joints}
     if not own.items() <= {joint.name: joint.parts for joint in motion.mechanism.all_joints}.items():
         raise ValueError("the motion is that of a mechanism with other parts or joints: write motion.mechanism.at(...)")
+    check_closed_pose(motion, index)
+    rows = {name: np.asarray(q, float)[index] for name, q in motion.coordinates.items()}
+    return placed_at(mechanism, rows, SIX_DIGITS)[0]
+
+
+def motion_of(given: Motion | Pose, what: str) -> Motion:
+    """Return a motion, or that of one pose; ValueError for others, whose message begins with what is found of it."""
+    motion = given.motion if isinstance(given, Pose) else given
+    check_motion(motion, what)
+    return motion
+
+
+def check_closed_pose(motion: Motion, index: int) -> None:
+    """Raise ValueError where a motion has no pose of that number, and where the pose is not closed.
+
+    A status that JAX traces is not looked at.
+    """
     if isinstance(index, bool) or not isinstance(index, int | np.integer) or not -len(motion) <= index < len(motion):
         raise ValueError(f"the motion has {len(motion)} poses, numbered from 0, got {index!r}")
+    if traced(motion.status):
+        return
     status = Status(int(motion.status[index]))
     if status not in (Status.CLOSED, Status.LIMITED, Status.JUMPED):
         raise ValueError(
             f"pose {index} is {status.name}: {status.message}; a mechanism is assembled in closed poses only"
         )
-    rows = {name: np.asarray(q, float)[index] for name, q in motion.coordinates.items()}
-    return placed_at(mechanism, rows, SIX_DIGITS)[0]
 
 
 def placed_at(

@@ -11,7 +11,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin._arguments import by_name, check_mechanism, check_motion, check_one, one_number
+from jaxkin._arguments import by_name, check_mechanism, check_one, one_number
 from jaxkin._names import closest, match_parts, nearest
 from jaxkin._traced import traced
 from jaxkin.geometry.inertial import exceeds_sum, of_density_one
@@ -19,6 +19,8 @@ from jaxkin.geometry.part import Part
 from jaxkin.geometry.units import METRES
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
+from jaxkin.mechanism.placed_at import check_closed_pose, motion_of
+from jaxkin.mechanism.pose import Pose
 
 Number = float | int | np.ndarray | Array
 
@@ -86,15 +88,17 @@ class Masses:
         """Sum of all masses, kilograms."""
         return jnp.sum(self.mass, axis=-1)
 
-    def at(self, motion: Motion, index: int) -> Masses:
+    def at(self, motion: Motion | Pose, index: int = 0) -> Masses:
         """Move the masses with their parts to pose `index` of a motion: those of `motion.mechanism.at(motion, index)`.
 
-        Raises ValueError for the motion of a mechanism with other parts.
+        Raises ValueError for a pose that is not there or not closed, and for the motion of a mechanism with other
+        parts.
         """
-        check_motion(motion, "masses in another pose")
+        motion = motion_of(motion, "masses in another pose")
         check_one("masses in another pose", "the masses of one mechanism", self.batch)
         if motion.mechanism.parts != self.parts:
             raise ValueError("the motion is that of a mechanism with other parts than the masses have")
+        check_closed_pose(motion, index)
         moved = jnp.stack([motion.transforms[part][index] for part in self.parts])
         turned = moved[:, :3, :3]
         centre = jnp.einsum("pij,pj->pi", turned, self.centre) + moved[:, :3, 3]

@@ -150,3 +150,22 @@ def test_masses_move_with_their_parts_to_another_assembled_pose():
     np.testing.assert_allclose(after, before, rtol=1e-11)  # of a pose that is aligned anew
     with pytest.raises(ValueError, match="a mechanism with other parts than the masses have"):
         masses.at(pendulum().sweep({"A": [0.1]}), 0)
+
+
+def test_masses_are_moved_to_closed_poses_that_are_there_only():
+    """As mechanisms are: a pose behind the last one was taken for the last one, and one of NaN gave masses of NaN."""
+    mechanism = planar_fourbar()
+    masses = jk.masses(mechanism, given={part: jk.Mass(2.0, centre=(60.0, 50.0, 7.0)) for part in mechanism.parts})
+    motion = mechanism.sweep({"A": np.array([0.0, 0.3, np.nan])})
+    for index, said in (
+        (3, "has 3 poses, numbered from 0, got 3"),
+        (-4, "got -4"),
+        (True, "got True"),
+        (1.0, "got 1.0"),
+        (2, "pose 2 is NONFINITE"),
+    ):
+        for each in (masses, mechanism):
+            with pytest.raises(ValueError, match=said):
+                each.at(motion, index)
+    one = masses.at(mechanism.solve({"A": 0.3}))
+    np.testing.assert_allclose(one.centre, masses.at(motion, -2).centre, atol=1e-9)  # one pose, to rounding of 100 mm
