@@ -113,7 +113,7 @@ def exact_numbers(given: Any, what: str, expected: str = "numbers") -> Any:
         if not real:
             raise TypeError
         found = found.astype(np.float64, copy=False)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):  # the last one of integers beyond 1e308
         raise ValueError(f"{what} must be {expected}, got {given!r}") from None
     return np.where(np.ma.getmaskarray(given), np.nan, found) if np.ma.isMaskedArray(given) else found
 

@@ -1,4 +1,4 @@
-"""Write a whole mechanism: joints, couplings, limits, unit and notes in JSON, every number in full precision.
+"""Write a whole mechanism: joints, couplings, limits, unit, notes and evidence in JSON, all digits of its numbers.
 
 Solids are not in the file: a mechanism that was read back computes the same motion, and has no parts to draw.
 """
@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from jaxkin._files import whole
+from jaxkin.linkage.evidence_record import of_bond
 from jaxkin.linkage.record import as_record
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ MECHANISM_SUFFIX = ".json"
 
 FORMAT = "jaxkin mechanism"
 """What the file says that it is."""
-VERSION = 1
+VERSION = 2
 """Raised with every change of what is written; files of a later version are refused."""
 
 
@@ -38,6 +39,7 @@ def save_mechanism(mechanism: Mechanism, path: str | os.PathLike[str]) -> Path:
         "unit": mechanism.unit,
         "linkage": as_record(mechanism.linkage),
         "motors": list(mechanism.motors),
+        "bonds": [of_bond(bond) for bond in mechanism.bonds],
         "history": list(mechanism.history),
         "alignment": list(mechanism.alignment),
     }

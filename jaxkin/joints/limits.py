@@ -40,7 +40,7 @@ def with_limits(joint: Joint, given: GivenLimits | None) -> Joint:
             raise ValueError(
                 f"limits of joint {joint.name!r}: {name!r} is one of the angles of a ball, which have no limits each"
             )
-        found[names.index(name)] = _ends(ends, f"joint {joint.name!r}: the limits of {name!r}")
+        found[names.index(name)] = low_and_high(ends, f"joint {joint.name!r}: the limits of {name!r}")
     return replace(joint, limits=tuple(found))
 
 
@@ -52,7 +52,8 @@ def with_limits_within(joint: Joint, ends: Mapping[str, tuple[float, float]], gi
     return with_limits(joint, both) if both else joint
 
 
-def _ends(ends: Sequence[float | int], what: str) -> tuple[float, float]:
+def low_and_high(ends: Sequence[float | int], what: str) -> tuple[float, float]:
+    """Return a lower and an upper limit, or equal ones; ValueError, which begins with `what`, for others."""
     try:
         low, high = (float(end) for end in ends)
     except (TypeError, ValueError):

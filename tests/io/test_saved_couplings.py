@@ -1,6 +1,7 @@
 """Couplings in files: in studies, and in whole mechanisms, which come back to the same numbers."""
 
 import json
+from dataclasses import replace
 from inspect import signature
 
 import numpy as np
@@ -9,6 +10,8 @@ import pytest
 import jaxkin as jk
 from jaxkin.io.study_couplings import CouplingTable
 from jaxkin.joints.coupling import COUPLINGS
+from jaxkin.joints.evidence import Certainty, Doubt, Evidence, EvidenceKind
+from jaxkin.joints.kinds import JointKind
 from reference import mechanisms
 
 Z = (0.0, 0.0, 1.0)
@@ -126,7 +129,7 @@ def test_limits_motors_and_the_ideal_joints_of_rounded_numbers_are_kept(tmp_path
     [
         ("{", "is no mechanism that Mechanism.save wrote: Expecting"),
         ("[1]", 'it does not say "format": "jaxkin mechanism"'),
-        ('{"format": "jaxkin mechanism", "version": 99}', "version 99, and this jaxkin reads up to 1"),
+        ('{"format": "jaxkin mechanism", "version": 99}', "version 99, and this jaxkin reads up to 2"),
         ('{"format": "jaxkin mechanism", "version": 1, "unit": "mm"}', "there is no 'linkage'"),
     ],
 )
@@ -148,6 +151,81 @@ def test_a_damaged_mechanism_is_refused_and_other_words_too(tmp_path):
         jk.load(path)
     with pytest.raises(ValueError, match=r"a mechanism is saved as a .json file, got 'm.toml'"):
         linkage().save("m.toml")
+
+
+def _in(record, *keys):
+    """The list or table in which the last of some keys is."""
+    for key in keys[:-1]:
+        record = record[key]
+    return record
+
+
+@pytest.mark.parametrize(
+    ("keys", "value", "said"),
+    [
+        (("linkage", "joints", 0, "frames_1", 0, 1, 0), 0.5, "frames_1 of joint 'A' must be rigid 4x4 poses"),
+        (("linkage", "joints", 0, "frames_1", 0, 3, 3), -1.0, "frames_1 of joint 'A' must be rigid 4x4 poses"),
+        (("linkage", "joints", 0, "frames_1", 0, 0, 3), 10**400, "frames_1 of joint 'A' must be numbers"),
+        (("linkage", "joints", 0, "limits"), [[2.0, -1.0]], "limits of joint 'A' must be two numbers, the lower one"),
+        (("linkage", "joints", 0, "limits"), [[-1.0, 2.0]] * 2, "joint 'A' has 1 coordinates, and limits of 2"),
+        (("linkage", "joints", 5, "pitch"), float("nan"), "the pitch of joint 'S' must be finite numbers"),
+        (
+            ("linkage", "joints", 5, "curves"),
+            [None, None],
+            "joint 'S' must have a curve for each movement that follows",
+        ),
+        (
+            ("linkage", "couplings", 0, "coefficients"),
+            [[1.0]],
+            "of coupling .* 2 x n, got those of shape .1, 1",
+        ),
+        (("linkage", "couplings", 0, "offset"), [0.0], "offset of coupling .* finite numbers, one"),
+        (("linkage", "couplings", 0, "angles"), "yes", "angles of coupling .* true, false or null, got 'yes'"),
+        (("linkage", "spinning"), {"nobody": 1}, "spinning must name parts with their freedoms, got 'nobody'"),
+        (("linkage", "joints", 0, "evidence"), {"kind": "rumour"}, "'rumour' is not a valid EvidenceKind"),
+        (("bonds",), [{"parts": ["a", "z"], "evidence": {"kind": "user"}}], "a bond names the unknown part 'z'"),
+        (("motors",), ["Z"], "there is no joint 'Z'"),
+        (("motors",), "A", "motors must be a list of texts, got 'A'"),
+        (("history",), [1], "each of history must be text, got 1"),
+        (("version",), "1", "its version must be a whole number"),
+    ],
+)
+def test_altered_numbers_and_words_of_a_saved_mechanism_are_refused(tmp_path, keys, value, said):
+    """Frames that no rigid part has were swept without a word, and other values failed as errors of Python later."""
+    path = linkage().save(tmp_path / "whole.json")
+    record = json.loads(path.read_text())
+    _in(record, *keys)[keys[-1]] = value
+    path.write_text(json.dumps(record))
+    with pytest.raises(ValueError, match=rf"whole\.json is no mechanism that Mechanism\.save wrote: .*{said}"):
+        jk.load(path)
+
+
+def test_what_cannot_be_read_back_is_not_saved(tmp_path):
+    mechanism = linkage()
+    bent = np.array(mechanism.joints["A"].frames_1) * 1.5
+    first, *others = mechanism.all_joints
+    bent = mechanism.with_linkage(mechanism.linkage.with_joints([replace(first, frames_1=bent), *others]))
+    with pytest.raises(ValueError, match="frames_1 of joint 'A' must be rigid 4x4 poses"):
+        bent.save(tmp_path / "bent.json")
+    assert not [*tmp_path.iterdir()]
+
+
+def test_what_joints_and_bodies_are_known_from_is_kept(tmp_path):
+    """With their doubts, which the mechanism that was read back prints as before: it told nothing of them."""
+    given = linkage()
+    doubt = Doubt(JointKind.CYLINDRICAL, "nothing stops it along its axis", Certainty.NO_STOP)
+    known = Evidence(EvidenceKind.CLEARANCE, (("clearance", 0.1), ("radius", 1 / 3)), "a pin with play 0.1", doubt)
+    *others, last = given.all_joints
+    joints = [replace(others[0], evidence=known), *others[1:], replace(last, evidence=None)]
+    bond = jk.Bond(("a", "b"), Evidence(EvidenceKind.FASTENER, text="a screw"))
+    mechanism = replace(given, linkage=given.linkage.with_joints(joints), bonds=(bond,))
+    back = jk.load(mechanism.save(tmp_path / "known.json")).mechanism()
+    assert [joint.evidence for joint in back.all_joints] == [joint.evidence for joint in joints]
+    assert back.bonds == (bond,) and str(back) == str(mechanism) and "may be cylindrical" in str(back)
+    record = json.loads((tmp_path / "known.json").read_text())
+    del record["bonds"], record["linkage"]["joints"][0]["evidence"]
+    (tmp_path / "first.json").write_text("\ufeff" + json.dumps(record | {"version": 1}))  # as before there was evidence
+    assert jk.load(tmp_path / "first.json").mechanism().joints["A"].evidence is None
 
 
 def test_words_about_a_saved_mechanism_are_taken_or_refused(tmp_path):
