@@ -16,8 +16,10 @@ def main() -> None:
     JAX is not imported here, which takes longer than help and errors of arguments do: it reads the environment.
     """
     from jaxkin.cli.app import app
+    from jaxkin.cli.interrupt import never_ignored
     from jaxkin.cli.threads import one_thread
 
+    never_ignored()
     one_thread()
     os.environ["JAX_ENABLE_X64"] = "1"
     if "JAX_COMPILATION_CACHE_DIR" not in os.environ:
