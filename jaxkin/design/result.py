@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 import os
+import zlib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from zipfile import BadZipFile
 
 import numpy as np
 
@@ -15,7 +17,8 @@ from jaxkin._names import counted
 from jaxkin.design.objective import Objective
 from jaxkin.geometry.characteristic_length import centroid_and_length
 from jaxkin.geometry.movements import is_length
-from jaxkin.linkage.record import as_record, from_record
+from jaxkin.geometry.units import check_unit
+from jaxkin.linkage.record import UNREADABLE, as_record, from_record
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.solve.status import CLOSED_ON_BRANCH, Status
 
@@ -26,7 +29,7 @@ POSES, PIECE = 361, 32
 """Of the range, and at least of what is swept at once."""
 STEEP = 100.0
 """Radians, or lengths over the size of the mechanism, per radian of the drive: beyond it a pose is near-singular."""
-SAVED_FORMAT = 2
+SAVED_FORMAT = 3
 """Version of the files that `Optimum.save` writes, raised with every change of their fields: those of `SweepVerdict`
 and `Optimum`, and of `jaxkin.linkage.record`. Files of another version are refused."""
 
@@ -157,28 +160,28 @@ class Optimum:
 def read_optimum(path: str | os.PathLike[str]) -> Optimum:
     """Read a result that `Optimum.save` wrote. Raises ValueError where the file is none."""
     try:
-        with np.load(path, allow_pickle=False) as file:
+        with open(path, "rb") as opened, np.load(opened, allow_pickle=False) as file:
             arrays = {name: file[name] for name in file.files}
         text = json.loads(str(arrays.pop("text")))
         if text["format"] != SAVED_FORMAT:
             raise ValueError(f"format {text['format']}, and this version reads {SAVED_FORMAT}")
-        linkage = from_record(text["linkage"])
-    except (KeyError, TypeError, ValueError, OSError) as error:
-        if isinstance(error, FileNotFoundError):
-            raise
-        raise ValueError(f"{str(path)!r} is no saved result of optimize: {error}") from error
-    named = {
-        kind: {name.removeprefix(f"{kind} "): value for name, value in arrays.items() if name.startswith(f"{kind} ")}
-        for kind in ("drive", "extra")
-    }
-    return Optimum(
-        mechanism=Mechanism(linkage, text["unit"]),
-        **{name: text[name] for name in ("value", "violation", "reason", "seconds", "values")},
-        **{name: arrays[name] for name in ("history", "losses", "violations")},
-        extras=named["extra"],
-        drive=named["drive"],
-        moves=SweepVerdict(**text["moves"]),
-    )
+        drive, extras = (
+            {name.removeprefix(kind): value for name, value in arrays.items() if name.startswith(kind)}
+            for kind in ("drive ", "extra ")
+        )
+        return Optimum(
+            mechanism=Mechanism(from_record(text["linkage"]), check_unit(text["unit"])),
+            **{name: text[name] for name in ("value", "violation", "reason", "seconds", "values")},
+            **{name: arrays[name] for name in ("history", "losses", "violations")},
+            extras=extras,
+            drive=drive,
+            moves=SweepVerdict(**text["moves"]),
+        )
+    except FileNotFoundError:
+        raise
+    except (*UNREADABLE, OSError, BadZipFile, EOFError, zlib.error) as error:
+        said = f"there is no {error}" if isinstance(error, KeyError) else str(error)
+        raise ValueError(f"{str(path)!r} is no saved result of optimize: {said}") from error
 
 
 def judged_range(motion: Motion) -> SweepVerdict:

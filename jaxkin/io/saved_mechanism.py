@@ -15,7 +15,7 @@ from jaxkin.io.mechanism_file import FORMAT, VERSION
 from jaxkin.joints.evidence import Bond
 from jaxkin.linkage.coordinates import coordinates
 from jaxkin.linkage.evidence_record import bond_of
-from jaxkin.linkage.record import from_record
+from jaxkin.linkage.record import UNREADABLE, from_record
 from jaxkin.mechanism.mechanism import Mechanism
 
 _LONGEST = 400
@@ -45,7 +45,7 @@ def read_mechanism(path: str | os.PathLike[str]) -> Mechanism:
             bonds=tuple(_bond(each, linkage.parts) for each in record.get("bonds", [])),
             motors=motors,
         )
-    except (KeyError, IndexError, TypeError, ValueError, AttributeError, OverflowError, RecursionError) as error:
+    except UNREADABLE as error:
         said = f"there is no {error}" if isinstance(error, KeyError) else str(error)
         said = said if len(said) <= _LONGEST else f"{said[:_LONGEST]}..."  # of names without end
         raise ValueError(f"{target.name} is no mechanism that Mechanism.save wrote: {said}") from error

@@ -25,6 +25,9 @@ from jaxkin.linkage.evidence_record import evidence_of, of_evidence
 from jaxkin.linkage.linkage import Linkage, SpinningPart
 from jaxkin.topology.structure import structure
 
+UNREADABLE = (KeyError, IndexError, TypeError, ValueError, AttributeError, OverflowError, RecursionError)
+"""What reading an altered file may raise: words in place of numbers, lists in place of tables, and what is missing."""
+
 
 def as_record(linkage: Linkage) -> dict[str, Any]:
     """Write a linkage as plain data, which JSON can hold.
@@ -60,7 +63,7 @@ def as_record(linkage: Linkage) -> dict[str, Any]:
 
 
 def from_record(record: Mapping[str, Any]) -> Linkage:
-    """Make a linkage of what `as_record` wrote. Raises KeyError, TypeError or ValueError where it is none."""
+    """Make a linkage of what `as_record` wrote. Raises one of `UNREADABLE` where it is none."""
     joints = tuple(_joint(each) for each in record["joints"])
     couplings = [_coupling(each) for each in record.get("couplings", [])]
     described = [(joint.name, *joint.parts) for joint in joints]

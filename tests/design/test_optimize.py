@@ -1,5 +1,6 @@
 """`optimize` on problems whose answer is known, its result on disk, and what it refuses."""
 
+import json
 import warnings
 from dataclasses import fields
 
@@ -214,30 +215,39 @@ def test_losses_that_are_none(loss, said):
         jk.optimize(loss, START, drive={"A": TURN}, lengths={CRANK: (20, 60)})
 
 
-def test_a_saved_result_of_another_format_is_refused(tmp_path, monkeypatch):
+@pytest.fixture
+def saved(tmp_path):
     nothing = np.zeros(0)
-    found = result.Optimum(
-        TRUTH,
-        1.0,
-        0.0,
-        nothing,
-        "",
-        0.0,
-        {},
-        {},
-        {"A": TURN},
-        nothing,
-        nothing,
-        result.SweepVerdict(1, {"CLOSED": 1}, 1.0),
-    )
-    path = found.save(tmp_path / "best.npz")
-    assert design.read_optimum(path).mechanism.lengths == TRUTH.lengths
+    verdict = result.SweepVerdict(1, {"CLOSED": 1}, 1.0)
+    found = result.Optimum(TRUTH, 1.0, 0.0, nothing, "", 0.0, {}, {}, {"A": TURN}, nothing, nothing, verdict)
+    return found.save(tmp_path / "best.npz")
+
+
+def test_a_saved_result_of_another_format_is_refused(saved, monkeypatch):
+    assert design.read_optimum(saved).mechanism.lengths == TRUTH.lengths
     monkeypatch.setattr(result, "SAVED_FORMAT", result.SAVED_FORMAT + 1)
-    with pytest.raises(ValueError, match=r"no saved result of optimize: format 2, and this version reads 3"):
-        design.read_optimum(path)
+    with pytest.raises(ValueError, match=r"no saved result of optimize: format 3, and this version reads 4"):
+        design.read_optimum(saved)
+
+
+def test_a_damaged_result_is_refused_by_name(saved):
+    """Whatever is gone or altered: files that were cut off were an error of zipfile, missing keys a KeyError."""
+    whole = saved.read_bytes()
+    with np.load(saved) as file:
+        arrays = {name: file[name] for name in file.files}
+    text = json.loads(str(arrays["text"]))
+    for size in (0, 1, 100, len(whole) // 2, len(whole) - 1):
+        saved.write_bytes(whole[:size])
+        with pytest.raises(ValueError, match=r"best\.npz' is no saved result of optimize"):
+            design.read_optimum(saved)
+    for key, value in (("moves", None), ("moves", {}), ("value", ...), ("unit", "cubit"), ("linkage", [])):
+        words = {name: each for name, each in (text | {key: value}).items() if each is not ...}
+        np.savez(saved, **arrays | {"text": np.array(json.dumps(words))})
+        with pytest.raises(ValueError, match=r"best\.npz' is no saved result of optimize"):
+            design.read_optimum(saved)
 
 
 def test_the_format_of_saved_results_changes_with_what_is_saved():
     """Whoever changes the fields raises `SAVED_FORMAT`, and writes both here."""
-    assert result.SAVED_FORMAT == 2
+    assert result.SAVED_FORMAT == 3
     assert [field.name for field in fields(result.SweepVerdict)] == ["poses", "counts", "steepest"]
