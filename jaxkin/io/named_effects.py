@@ -68,6 +68,9 @@ def _in_radians(motion: Motion, effect: str, speeds: Mapping[str, float | int]) 
     example = ", ".join(f'"{name}" = 10' for name in motion.inputs)
     found = {}
     for name, speed in by_name(speeds, f"{effect}: speeds", f"{{ {example} }}").items():
+        if isinstance(speed, Mapping) and speed:
+            dotted = f"{name}.{next(iter(speed))}"
+            raise ValueError(f"{effect}: a name with a dot stands in quotes: {dotted!r} = 10")
         known_speed = float(one_number(speed, f"{effect}: the speed of {name!r}"))
         found[name] = known_speed if is_length(_coordinate_name(motion, effect, name)) else np.radians(known_speed)
     return found

@@ -59,9 +59,12 @@ def _said(error: Any, keys: Mapping[tuple[str, ...], Sequence[str]]) -> str:
 
 
 def _unknown(loc: Sequence[str | int], place: str, keys: Mapping[tuple[str, ...], Sequence[str]]) -> str:
-    table = tuple(str(name) for name in loc[:-1])
-    known = keys.get(table) or keys.get((*table[:-1], "*")) or ()
-    return f"there is no key {place!r}{_misplaced(loc, keys) or nearest(str(loc[-1]), known)}"
+    *table, key = map(str, loc)
+    by_name = keys.get((*table[:-1], "*")) if table else None
+    advice = _misplaced(loc, keys) or nearest(key, keys.get(tuple(table)) or by_name or ())
+    if by_name and "did you mean" not in advice:
+        advice += f"; a name with a dot stands in quotes: {table[-1] + '.' + key!r}"
+    return f"there is no key {place!r}{advice}"
 
 
 def _misplaced(loc: Sequence[str | int], keys: Mapping[tuple[str, ...], Sequence[str]]) -> str:

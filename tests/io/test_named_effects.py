@@ -108,6 +108,7 @@ def test_an_effect_that_fails_keeps_nothing_else_from_being_written(tmp_path):
     [
         ({"rates": {"A": "10"}}, "rates: the speed of 'A' must be one finite number, got '10'"),
         ({"rates": {"A": [10, 20]}}, "rates: the speed of 'A' must be one finite number, got [10, 20]"),
+        ({"rates": {"A": {"phi": 10}}}, "rates: a name with a dot stands in quotes: 'A.phi' = 10"),
         ({"rates": {"A": np.nan}}, "rates: the speed of 'A' must be one finite number, got nan"),
     ],
 )

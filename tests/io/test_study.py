@@ -151,6 +151,8 @@ HINGE = '[joints.A]\nkind = "revolute"\nparts = ["ground", "crank"]\n'
         (HEAD + HINGE + "point = [0, 0, 0]", "joints.A: a joint of kind 'revolute' needs axis"),
         (HEAD + HINGE + "point = [0, 0, 0]\naxis = [0, 0, 0]", "'A': axis must be a direction, got the zero vector"),
         (HEAD + HINGE + "axes = [0, 0, 0]", "there is no key 'joints.A.axes'; did you mean 'axis'?"),
+        (HEAD + HINGE + '[drive]\nA.phi = "0:9:4"', "'unit'; a name with a dot stands in quotes: 'A.phi'"),
+        (HEAD + '[joints.A.1]\nkind = "revolute"', "; a name with a dot stands in quotes: 'A.1'"),
         (
             HEAD + HINGE + "point = [0, 0, 0]\naxis = [0, 0, 1]\npitch = 1",
             "joints.A: a joint of kind 'revolute' has no pitch; it takes point, axis",

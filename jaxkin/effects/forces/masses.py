@@ -178,7 +178,7 @@ def _what_is_missing(missing: Sequence[str], solids: Mapping[str, Part], density
     if first in solids and density is None:
         return f"no density of {names}: write jk.masses(mechanism, 7850) or jk.masses(mechanism, 'steel')"
     if first in solids:
-        return f"no density of {names}: write {{{first!r}: 7850}}, or {{'*': 7850}} for all others"
+        return f"no density of {names}: give one of {first!r}, such as 7850, or one of '*' for all others"
     return (
         f"no mass of {names}: a part without a solid needs given={{{first!r}: jk.Mass(0.3, centre=(x, y, z))}}, or "
         f"given={{{first!r}: 0}} for none"
