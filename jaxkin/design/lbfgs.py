@@ -13,6 +13,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import dtypes
+from jaxtyping import Float
 
 from jaxkin.design.augmented_lagrangian import Verdict
 from jaxkin.design.problem import HOPELESS, Judged, Problem, ProgramKey, taken_apart
@@ -24,6 +25,16 @@ MEMORY = 12
 """Pairs of steps and gradients that L-BFGS keeps."""
 HALVINGS = 15
 """Trials of a line search, each 0.4 times as long as the one before."""
+
+
+class _State(NamedTuple):
+    units: Float[Any, "starts variables"]
+    """0 at the lower bounds, 1 at the upper ones."""
+    inner: Any
+    """State of jaxopt, of the loss times the scale."""
+    scale: Float[Any, " starts"]
+    """One over the size of the first loss and of its slope. jaxopt holds slopes and steps against the rounding of 1:
+    a loss with slopes of 1e16, such as squares of accelerations in mm/s^2, would never move."""
 
 
 class _Programs(NamedTuple):
@@ -66,17 +77,23 @@ def bounded(problem: Problem, together: int = TOGETHER) -> Solver:
         losses = np.where(np.isfinite(found.rows[:, 0]), found.rows[:, 0], np.nan)
         return Verdict(losses, found.gaps, np.maximum(shifts - found.margins, 0.0), shifts)
 
-    return Solver(begin, advance, lambda state: np.asarray(lower + width * state[0]), lambda s: s[1].grad, judge)
+    return Solver(
+        begin,
+        advance,
+        lambda state: np.asarray(lower + width * state.units),
+        lambda state: state.inner.grad / state.scale[:, None],
+        judge,
+    )
 
 
 @lru_cache(maxsize=KEPT)
 def _programs(key: ProgramKey) -> _Programs:
     """Make the programs of problems of this key."""
 
-    def value_and_grad(unit, penalty, numbers):
+    def value_and_grad(unit, penalty, scale, numbers):
         problem: Problem = key.problem.unflatten(numbers)
         lower, width = unit_box(problem.variables)
-        value, slope = jax.value_and_grad(lambda unit: problem.total(lower + width * unit, penalty))(unit)
+        value, slope = jax.value_and_grad(lambda unit: scale * problem.total(lower + width * unit, penalty))(unit)
         return jnp.nan_to_num(value, nan=HOPELESS, posinf=HOPELESS), jnp.nan_to_num(slope, posinf=0.0, neginf=0.0)
 
     def bounds(numbers):
@@ -95,17 +112,25 @@ def _programs(key: ProgramKey) -> _Programs:
 
     def first(numbers, units, penalties):
         box = bounds(numbers)
-        return units, jax.vmap(lambda unit, penalty: solver.init_state(unit, box, penalty, numbers))(units, penalties)
+
+        def one(unit, penalty):
+            state = solver.init_state(unit, box, penalty, 1.0, numbers)
+            size = jnp.maximum(jnp.abs(state.value), jnp.linalg.norm(jnp.where(box[1] > 0, state.grad, 0.0)))
+            scale = jnp.where(size > 0, 1.0 / size, 1.0)
+            inner = state._replace(value=scale * state.value, grad=scale * state.grad)
+            return _State(unit, inner, scale)
+
+        return jax.vmap(one)(units, penalties)
 
     def further(numbers, state, penalties):
         box = bounds(numbers)
 
-        def one(unit, state, penalty):
-            step = solver.update(unit, state, box, penalty, numbers)
+        def one(unit, state, penalty, scale):
+            step = solver.update(unit, state, box, penalty, scale, numbers)
             return step.params, step.state
 
         def iterate(carry, _):
-            new = jax.vmap(one)(carry[0], carry[1], penalties)
+            new = jax.vmap(one)(*carry, penalties, scales)
             # a line search that fails leaves the point where it was
             better = new[1].value <= carry[1].value
 
@@ -113,10 +138,11 @@ def _programs(key: ProgramKey) -> _Programs:
                 return jnp.where(better.reshape(better.shape + (1,) * (new.ndim - 1)), new, old)
 
             carry = jax.tree.map(keep, new, carry)
-            return carry, carry[1].value
+            return carry, carry[1].value / scales
 
-        state, losses = jax.lax.scan(iterate, state, None, length=CHUNK)
-        return state, losses.T
+        scales = state.scale
+        (units, inner), losses = jax.lax.scan(iterate, (state.units, state.inner), None, length=CHUNK)
+        return _State(units, inner, scales), losses.T
 
     def judged(numbers, vectors):
         return jax.vmap(key.problem.unflatten(numbers).judge)(vectors)

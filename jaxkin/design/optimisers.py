@@ -18,7 +18,7 @@ class _Search:
     target: float | None = None
     """Loss of a feasible design at which the search ends; None for none."""
     penalty: float | None = None
-    """Weight of violations; None for a hundred times the median loss of the starts."""
+    """Weight of violations; None for a hundred times the median of the absolute losses of the starts."""
 
     def __post_init__(self) -> None:
         name = type(self).__name__

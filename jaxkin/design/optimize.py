@@ -175,9 +175,9 @@ def _check_known(problem: Problem, motion: Motion, extras: dict[str, Any]) -> No
 
 def _best_of(pool: np.ndarray, verdict: Verdict, starts: int) -> tuple[np.ndarray, float]:
     """Find the given design and the best of the pool, and the weight of violations: a hundred times the median of
-    their losses."""
+    their absolute losses."""
     losses, violations = verdict.losses, verdict.violations
-    usual = float(np.median(losses[np.isfinite(losses)]))
+    usual = float(np.median(np.abs(losses[np.isfinite(losses)])))
     weight = 100.0 * usual if usual > 0 else 1.0
     total = np.where(np.isfinite(losses), losses, np.inf) + weight * violations**2
     order = [0, *(index for index in np.argsort(total, kind="stable") if index != 0)][:starts]

@@ -9,11 +9,13 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from jaxkin.design.augmented_lagrangian import MET, Penalty, Verdict, renewed, worth_more
-from jaxkin.design.optimisers import Optimiser
+from jaxkin.design.optimisers import LevenbergMarquardt, Optimiser
 from jaxkin.design.solvers import CHUNK, Solver
 
 PATIENCE = 30
 """Iterations before a start may retire because its loss falls too slowly."""
+NOTHING = 1e-30
+"""Absolute loss up to which nothing is left to improve."""
 MAX_SEARCHES = 12
 """Largest number of searches, each with the multipliers that follow from the end of the one before."""
 
@@ -110,9 +112,8 @@ def search(
             found = downhill.judge(downhill.vectors(state), penalty.shifts)
             if np.any((found.losses <= target) & (found.violations <= MET)):
                 return downhill.vectors(state), f"the target {target:g} was reached after {done} iterations", history
-        settled = (now >= last - tolerance * np.abs(last)) | (now <= 1e-30)
-        with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
-            expected = now * np.minimum(now / last, 1.0) ** ((iterations - done) / CHUNK)
+        settled = (now >= last - tolerance * np.abs(last)) | (np.abs(now) <= NOTHING)
+        expected = _expected(last, now, (iterations - done) / CHUNK, isinstance(stop, LevenbergMarquardt))
         hopeless = (expected > least) & (done >= PATIENCE) & (now > least * (1 + 1e-6))
         active = active & ~(settled | hopeless)
         last = now
@@ -124,6 +125,16 @@ def search(
             return downhill.vectors(state), reason, history
     improving = f"{active.sum()} starts were" if active.sum() > 1 else "1 start was"
     return downhill.vectors(state), f"all {iterations} iterations were used; {improving} still improving", history
+
+
+def _expected(last, now, rounds: float, squares: bool):
+    """Estimate the losses after further rounds of `CHUNK` iterations, from those before and after the last round.
+
+    Sums of squares fall by a share of themselves, to zero at most. Other losses have no such bound, and may be negative
+    or have a constant added: what they fell by says as much, and they are taken to go on falling by it.
+    """
+    with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
+        return now * np.minimum(now / last, 1.0) ** rounds if squares else now - rounds * (last - now)
 
 
 def _better(losses, violations, losses_before, violations_before):
