@@ -9,6 +9,7 @@ best = jk.optimize(
 best.mechanism, best.value, best.history
 """
 
+from jaxkin.design.bounds import Free as Free
 from jaxkin.design.constraints import above as above
 from jaxkin.design.constraints import full_crank as full_crank
 from jaxkin.design.constraints import grashof as grashof
@@ -29,4 +30,3 @@ from jaxkin.design.optimisers import LevenbergMarquardt as LevenbergMarquardt
 from jaxkin.design.optimize import optimize as optimize
 from jaxkin.design.result import Optimum as Optimum
 from jaxkin.design.result import read_optimum as read_optimum
-from jaxkin.design.variables import Free as Free

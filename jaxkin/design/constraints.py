@@ -45,6 +45,11 @@ def constraint_name(constraint: Constraint) -> str:
     return getattr(constraint, "name", None) or getattr(constraint, "__name__", type(constraint).__name__)
 
 
+def numbered(number: int, constraint: Constraint) -> str:
+    """Tell the number and the name of a constraint, for messages."""
+    return f"constraint {number} ({constraint_name(constraint)})"
+
+
 @jax.tree_util.register_dataclass
 @dataclass(frozen=True, eq=False)
 class _FullCrank(DesignConstraint):

@@ -41,7 +41,7 @@ class _Programs(NamedTuple):
     """The programs of problems of one key, whose numbers are their first argument."""
 
     first: Callable[..., Any]
-    """Evaluate loss and gradient of designs, for the first state."""
+    """Evaluate loss and gradient of designs, for the first state; also tells which derivatives are no numbers."""
     further: Callable[..., Any]
     """Take `CHUNK` iterations."""
     judged: Callable[..., Judged]
@@ -54,10 +54,13 @@ def bounded(problem: Problem, together: int = TOGETHER) -> Solver:
     key, numbers = taken_apart(problem)
     first, further, judged = _programs(key)
 
-    def begin(vectors, penalty):
+    def begun(vectors, penalty):
         span = np.where(width > 0, width, 1.0)
         units = np.where(width > 0, (np.asarray(vectors) - lower) / span, 0.0)
         return in_groups(lambda group: first(numbers, *group), together, (units, penalty))
+
+    def unknown(vectors, penalty):
+        return begun(vectors, penalty)[1]
 
     def advance(state, penalty, active):
         chosen = np.flatnonzero(active)
@@ -78,10 +81,11 @@ def bounded(problem: Problem, together: int = TOGETHER) -> Solver:
         return Verdict(losses, found.gaps, np.maximum(shifts - found.margins, 0.0), shifts)
 
     return Solver(
-        begin,
+        lambda vectors, penalty: begun(vectors, penalty)[0],
         advance,
         lambda state: np.asarray(lower + width * state.units),
         lambda state: state.inner.grad / state.scale[:, None],
+        unknown,
         judge,
     )
 
@@ -90,20 +94,24 @@ def bounded(problem: Problem, together: int = TOGETHER) -> Solver:
 def _programs(key: ProgramKey) -> _Programs:
     """Make the programs of problems of this key."""
 
-    def value_and_grad(unit, penalty, scale, numbers):
+    def exactly(unit, penalty, scale, numbers):
         problem: Problem = key.problem.unflatten(numbers)
         lower, width = unit_box(problem.variables)
-        value, slope = jax.value_and_grad(lambda unit: scale * problem.total(lower + width * unit, penalty))(unit)
+        return jax.value_and_grad(lambda unit: scale * problem.total(lower + width * unit, penalty))(unit)
+
+    def in_numbers(value, slope):
         return jnp.nan_to_num(value, nan=HOPELESS, posinf=HOPELESS), jnp.nan_to_num(slope, posinf=0.0, neginf=0.0)
+
+    def value_and_grad(unit, penalty, scale, numbers):
+        return in_numbers(*exactly(unit, penalty, scale, numbers))
 
     def bounds(numbers):
         chosen = key.problem.unflatten(numbers).variables
         return jnp.zeros_like(chosen.lower), jnp.where(chosen.upper > chosen.lower, 1.0, 0.0)
 
     package = jaxopt()
-    solver = package.LBFGSB(
-        value_and_grad, value_and_grad=True, history_size=MEMORY, linesearch_init="max", implicit_diff=False
-    )
+    settings = {"value_and_grad": True, "history_size": MEMORY, "linesearch_init": "max", "implicit_diff": False}
+    solver, beginner = (package.LBFGSB(each, **settings) for each in (value_and_grad, exactly))
     # its own line search holds the program of loss and gradient three times over; this one once. It asks for less loss
     # only: `c2` switches the condition on the slope off, and L-BFGS skips steps of negative curvature by itself
     solver.run_ls = package.BacktrackingLineSearch(
@@ -114,11 +122,12 @@ def _programs(key: ProgramKey) -> _Programs:
         box = bounds(numbers)
 
         def one(unit, penalty):
-            state = solver.init_state(unit, box, penalty, 1.0, numbers)
-            size = jnp.maximum(jnp.abs(state.value), jnp.linalg.norm(jnp.where(box[1] > 0, state.grad, 0.0)))
+            state = beginner.init_state(unit, box, penalty, 1.0, numbers)
+            unknown = jnp.isfinite(state.value) & ~jnp.isfinite(state.grad)
+            value, slope = in_numbers(state.value, state.grad)
+            size = jnp.maximum(jnp.abs(value), jnp.linalg.norm(jnp.where(box[1] > 0, slope, 0.0)))
             scale = jnp.where(size > 0, 1.0 / size, 1.0)
-            inner = state._replace(value=scale * state.value, grad=scale * state.grad)
-            return _State(unit, inner, scale)
+            return _State(unit, state._replace(value=scale * value, grad=scale * slope), scale), unknown
 
         return jax.vmap(one)(units, penalties)
 
@@ -130,7 +139,7 @@ def _programs(key: ProgramKey) -> _Programs:
             return step.params, step.state
 
         def iterate(carry, _):
-            new = jax.vmap(one)(*carry, penalties, scales)
+            new = jax.vmap(one)(carry[0], carry[1], penalties, scales)
             # a line search that fails leaves the point where it was
             better = new[1].value <= carry[1].value
 

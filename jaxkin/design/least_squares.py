@@ -55,7 +55,7 @@ def least_squares(problem: Problem, together: int = TOGETHER) -> Solver:
 
     def evaluated(units, penalty):
         weighted, jacobian = found(units, penalty)
-        return np.concatenate(weighted, axis=1), jacobian
+        return np.concatenate(weighted, axis=1), np.where(np.isfinite(jacobian), jacobian, 0.0)
 
     def units_of(vectors):
         return np.clip((np.asarray(vectors) - lower) / np.where(width > 0, width, 1.0), 0.0, 1.0)
@@ -79,6 +79,11 @@ def least_squares(problem: Problem, together: int = TOGETHER) -> Solver:
             each[chosen] = part
         return _State(*whole), losses
 
+    def unknown(vectors, penalty):
+        weighted, jacobian = found(units_of(vectors), penalty)
+        known_rows = np.abs(np.concatenate(weighted, axis=1)) < HOPELESS
+        return np.any(known_rows[:, :, None] & ~np.isfinite(jacobian), axis=1)
+
     def judge(vectors, shifts):
         rows, gaps, charged = map(np.asarray, found(units_of(vectors), Penalty(np.ones(len(vectors)), shifts))[0])
         losses = np.where(np.any(np.abs(rows) >= HOPELESS, axis=1), np.nan, np.sum(rows**2, axis=1))
@@ -89,6 +94,7 @@ def least_squares(problem: Problem, together: int = TOGETHER) -> Solver:
         advance,
         lambda state: np.asarray(lower + width * state.units),
         lambda state: np.max(np.abs(state.jacobian), axis=1),
+        unknown,
         judge,
     )
 
@@ -116,7 +122,7 @@ def _program(key: ProgramKey, together: int) -> TwoTiers:
             found, slopes = jax.vmap(along, out_axes=(None, -1))(jnp.eye(unit.size, dtype=unit.dtype))
             found = jax.tree.structure(shapes).unflatten(found)
             found = jax.tree.map(lambda rows: jnp.clip(jnp.nan_to_num(rows, nan=HOPELESS), -MOST, MOST), found)
-            return found, jnp.nan_to_num(jnp.concatenate(slopes), nan=0.0, posinf=0.0, neginf=0.0)
+            return found, jnp.concatenate(slopes)
 
         return in_lockstep(one, (0, 0))(units, penalties)
 

@@ -25,7 +25,7 @@ from jaxkin.design.objective import Objective
 from jaxkin.design.optimisers import LBFGS, LevenbergMarquardt, Optimiser
 from jaxkin.design.problem import HOPELESS, Problem, design_problem
 from jaxkin.design.result import Optimum, judged_range
-from jaxkin.design.search import ProgressBar, search_with_multipliers, unsearched
+from jaxkin.design.search import NOTHING, ProgressBar, search_with_multipliers, unsearched
 from jaxkin.design.solvers import TOGETHER, Solver
 from jaxkin.design.variables import Variables, spread, variables
 from jaxkin.solve.options import SolverOptions, options_with
@@ -39,6 +39,11 @@ POOL = 8
 NO_INFLUENCE = 1e-13
 """Derivative of the loss over the whole width of a variable, over the largest one or the loss itself (of a sum of
 squares, over its root), up to which the variable has no influence: rounding."""
+MASK = (
+    "roots and norms of zero and arcs of 1 have none, nor has jnp.where(ok, jnp.sqrt(x), 0.0) where x is zero; write "
+    "jnp.sqrt(jnp.where(ok, x, 1.0)) within, or start from another design"
+)
+"""What may be done about derivatives that are no numbers."""
 
 
 def optimize(
@@ -69,7 +74,8 @@ def optimize(
     `with_points`; driven displacements and `extras` given as `Free(start, lower, upper)`. A drive may also be a
     function of the extras: `lambda extras: extras["first"] + steps`. `ties` gives a key the value of a variable, or a
     function of it: `{("rocker", "C", "D"): ("crank", "A", "B")}`, `{"Q": ("P", mirrored)}`. Constraints are functions
-    like the loss whose values must not be negative; `jaxkin.design` has some.
+    like the loss whose values must not be negative; `jaxkin.design` has some. A second argument that has a value of its
+    own, as in `lambda motion, joint=joint: ...`, is not given the extras, but where it is called `extras`.
 
     `starts` designs are improved side by side in one compiled program: the given one, and the best of many drawn at
     random between the bounds. What is minimised is
@@ -92,7 +98,8 @@ def optimize(
     bounds, drive, targets and constraints compile nothing anew. Functions of your own are traced in each call, and
     compiled anew where they compute something else.
 
-    Raises ValueError for variables, bounds and losses that make no sense; warns of variables without any influence.
+    Raises ValueError for variables, bounds and losses that make no sense, and for derivatives that are NaN for every
+    start; warns of variables without any influence.
     """
     if solver is not None and not isinstance(solver, Optimiser):
         raise ValueError(f"solver must be jk.design.LevenbergMarquardt(...) or jk.design.LBFGS(...), got {solver!r}")
@@ -129,6 +136,9 @@ def optimize(
     losses, violations, best = designs.losses, designs.violations, designs.best
     vector = designs.vectors[best]
     motion, found, misfits = problem.motion(vector)
+    unknown = _unknown_slopes(downhill, vector[None], Penalty.plain(weight, 1, constraint_count), chosen)
+    if unknown and not (squares and losses[best] <= NOTHING):
+        reason += f"; {_said_of_unknown(unknown)} at the best design, which need not be the best around: {MASK}"
     if violations[best] > MET:
         reason += (
             f"; the best design violates {_violated(problem.gaps(motion, misfits), problem.margins(motion, found))}"
@@ -204,9 +214,22 @@ def _some_matter(downhill: Solver, vectors, penalty: Penalty, chosen: Variables,
     none = influence <= NO_INFLUENCE * max(np.max(influence), size if np.isfinite(size) else 0.0)
     idle = [name for name, without in zip(chosen.names, none & free, strict=True) if without]
     if idle and size > 0:
+        unknown = _unknown_slopes(downhill, vectors, penalty, chosen)
+        if unknown := [name for name in unknown if name in idle]:
+            raise ValueError(f"{_said_of_unknown(unknown)} for the design given and all other starts: {MASK}")
         warnings.warn(
             f"the loss does not depend on {', '.join(idle)}: the derivative is zero for every start, and "
             "nothing will change there; leave it out, or let the loss depend on it",
             stacklevel=3,
         )
     return bool(np.any(free & ~none))
+
+
+def _unknown_slopes(downhill: Solver, vectors, penalty: Penalty, chosen: Variables) -> list[str]:
+    """Find the variables by which what is minimised has no derivative at any of the designs, though it is a number."""
+    unknown = np.all(downhill.unknown(vectors, penalty), axis=0) & (chosen.upper > chosen.lower)
+    return [name for name, without in zip(chosen.names, unknown, strict=True) if without]
+
+
+def _said_of_unknown(names: list[str]) -> str:
+    return f"the loss or a constraint is a number, and its derivative by {', '.join(names)} is none"

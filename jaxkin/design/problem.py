@@ -5,8 +5,7 @@ A problem is a pytree: what two problems may differ in without being compiled an
 
 from __future__ import annotations
 
-import inspect
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, NamedTuple
@@ -15,14 +14,12 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import dtypes
-from jax.extend.core import Var
 from jaxtyping import Array, Float
 
-from jaxkin._traced import written_with_jax
 from jaxkin.design.augmented_lagrangian import Penalty
-from jaxkin.design.constraints import Constraint, DesignConstraint, constraint_name
+from jaxkin.design.constraints import Constraint, DesignConstraint, constraint_name, numbered
 from jaxkin.design.objective import Objective
-from jaxkin.design.own_functions import own_function
+from jaxkin.design.own_functions import called, check_constraint, check_loss, is_constant, own_function
 from jaxkin.design.penalty import closure_gaps
 from jaxkin.design.variables import Variables
 from jaxkin.dimensions.frames import with_points
@@ -103,7 +100,7 @@ class Problem:
         """Compute the values of the constraints, each with its name."""
         found = []
         for number, each in enumerate(self.constraints):
-            found.append((f"constraint {number} ({constraint_name(each)})", jnp.ravel(_called(each, motion, extras))))
+            found.append((numbered(number, each), jnp.ravel(called(each, motion, extras))))
         return found
 
     def of_motion(self, motion: Motion, extras: dict[str, Any]) -> Float[Array, " rows"]:
@@ -131,28 +128,12 @@ class Problem:
         return (jnp.sum(rows**2) if self.squares else rows[0]) + jnp.sum(gaps**2) + jnp.sum(charged**2)
 
     def _call(self, motion: Motion, extras: dict[str, Any]):
-        return _called(self.loss, motion, extras)
+        return called(self.loss, motion, extras)
 
 
 def _margins(problem: Problem, motion: Motion, extras: dict[str, Any]) -> list[Float[Array, " constraints"]]:
     """Compute the values of constraints; JAX keeps what it traces of this function for problems of one structure."""
     return [rows for _, rows in problem.margins(motion, extras)]
-
-
-def _called(function: Callable[..., Any], motion: Motion, extras: dict[str, Any]):
-    """Call a loss or a constraint of a motion, with the extras where it takes them."""
-    return function(motion, extras) if takes_extras(function) else function(motion)
-
-
-def takes_extras(loss: Callable[..., Any]) -> bool:
-    """Tell whether a loss wants the extra variables as a second argument."""
-    try:
-        inspect.signature(loss).bind(None, None)
-    except TypeError:
-        return False
-    except ValueError:  # no signature to be had: a callable of C
-        return False
-    return True
 
 
 class ProgramKey(NamedTuple):
@@ -211,7 +192,7 @@ def design_problem(
 ) -> Problem:
     """Make a problem, with functions of the user as what they compute: see `own_functions`.
 
-    Raises ValueError for a loss that is no single number where it has to be one.
+    Raises ValueError for a loss that is no single number where it has to be one, and for constraints that are none.
     """
 
     def traced(function: Callable[..., Any], name: str, *shapes: Any):
@@ -224,21 +205,23 @@ def design_problem(
     # shapes only, nothing is computed
     motion, extras, _ = jax.eval_shape(problem.motion, jnp.asarray(chosen.start))
 
-    def own(function: Callable[..., Any]):
+    def own(function: Callable[..., Any], number: int | None = None):
         def of_motion(motion: Motion, extras: dict[str, Any]):
-            return _called(function, replace(motion, mechanism=_with_contacts(motion.mechanism, mechanism)), extras)
+            return called(function, replace(motion, mechanism=_with_contacts(motion.mechanism, mechanism)), extras)
 
-        if not isinstance(loss, Objective) and function is loss:
-            _check_shape(of_motion, squares, motion, extras)
-            if not constraints and _is_constant(of_motion, motion, extras):
+        if number is None:
+            check_loss(of_motion, squares, motion, extras)
+            if not constraints and is_constant(of_motion, motion, extras):
                 raise ValueError("the loss is the same for every design: it must depend on the motion or the extras")
-        called = traced(of_motion, constraint_name(function), motion, extras)
-        return replace(called, function=partial(_called, function))
+        else:
+            check_constraint(of_motion, numbered(number, function), motion, extras)
+        found = traced(of_motion, constraint_name(function), motion, extras)
+        return replace(found, function=partial(called, function))
 
     return replace(
         problem,
         loss=own(loss) if _is_own(loss) else loss,
-        constraints=tuple(own(each) if _is_own(each) else each for each in constraints),
+        constraints=tuple(own(each, number) if _is_own(each) else each for number, each in enumerate(constraints)),
     )
 
 
@@ -250,31 +233,3 @@ def _is_own(function: Any) -> bool:
 def _with_contacts(mechanism: Mechanism, whole: Mechanism) -> Mechanism:
     """Give a mechanism what JAX has left behind, as functions of the motion find it when they are called."""
     return replace(mechanism, contacts=whole.contacts, contacts_at_rest=whole.contacts_at_rest, bonds=whole.bonds)
-
-
-def _is_constant(function: Callable[..., Any], *given: Any) -> bool:
-    """Tell whether a function computes nothing from what it is given."""
-    operations = jax.make_jaxpr(function)(*given).jaxpr
-    known = set(operations.invars)
-    for each in operations.eqns:
-        if any(isinstance(number, Var) and number in known for number in each.invars):
-            known.update(each.outvars)
-    return not any(isinstance(number, Var) and number in known for number in operations.outvars)
-
-
-def _check_shape(loss: Callable[..., Any], squares: bool, motion: Motion, extras: Mapping[str, Any]) -> None:
-    """Refuse a loss that is no single number, where it has to be one."""
-    returned: list[Any] = []
-    with written_with_jax("the loss"):
-        jax.eval_shape(lambda *given: returned.append(loss(*given)), motion, extras)
-    (found,) = returned
-    shape = getattr(found, "shape", () if isinstance(found, int | float) else None)
-    if shape is None:
-        raise ValueError(
-            f"the loss must return one number, got {type(found).__name__}; return jnp.sum(...) of what it measures"
-        )
-    if not squares and shape != ():
-        raise ValueError(
-            f"the loss must return one number, got an array of shape {shape}; return jnp.sum(...) of it, or say "
-            "solver=jk.design.LevenbergMarquardt() if these are residuals whose squares are to be added up"
-        )

@@ -32,6 +32,9 @@ class Solver(NamedTuple):
     """Return the designs of a state."""
     slopes: Callable[[Any], Float[np.ndarray, "starts variables"]]
     """Return numbers of the size of the derivatives in a state: zero where a variable has no influence."""
+    unknown: Callable[[Any, Penalty], Bool[np.ndarray, "starts variables"]]
+    """Tell for vectors whether what is minimised is a number there, and its derivative by a variable none: steps take
+    it for zero."""
     judge: Callable[[Any, Float[np.ndarray, "starts constraints"]], Verdict]
     """Compute losses and violations of vectors, for given shifts."""
 

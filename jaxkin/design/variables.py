@@ -12,6 +12,7 @@ from jax import dtypes
 from jaxtyping import Array, Float
 
 from jaxkin._arguments import by_name, exact_numbers
+from jaxkin.design.bounds import Bounded, Entry, Free, bounded_entry, free_between
 from jaxkin.design.measures import STATIC, lengths_now
 from jaxkin.dimensions.frames import find_profile, locate
 from jaxkin.dimensions.lengths import find_length, range_of
@@ -20,19 +21,10 @@ from jaxkin.geometry.characteristic_length import centroid_and_length
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
-ROUNDING = 1e-9
-"""Share of the numbers that a start was made of by which it may be outside of its bounds, and is moved onto them."""
+GROUPS = {"lengths": "length", "points": "point", "inputs": "drive", "extras": "extra"}
+"""What a variable of each group is called."""
 
 DesignVector = Float[np.ndarray | Array, " variables"]
-
-
-@dataclass(frozen=True)
-class Free:
-    """Numbers to be chosen: where they start and between which bounds. Arrays of one shape, or numbers for all."""
-
-    start: Any
-    lower: Any
-    upper: Any
 
 
 class Design(NamedTuple):
@@ -44,32 +36,12 @@ class Design(NamedTuple):
     extras: dict[str, Any]
 
 
-@dataclass(frozen=True)
-class _Entry:
-    """The name of a variable; nothing here is a number."""
-
-    group: str
-    key: Any
-    shape: tuple[int, ...]
-    ties: tuple[tuple[Any, Callable | None], ...] = ()
-    """Further keys of the group that take this value, or a function of it."""
-
-
-class _Bounded(NamedTuple):
-    """A variable with its numbers, all of its shape."""
-
-    entry: _Entry
-    start: np.ndarray
-    lower: np.ndarray
-    upper: np.ndarray
-
-
 @jax.tree_util.register_dataclass
 @dataclass(frozen=True, eq=False)
 class Variables:
     """All variables, one after another. A pytree of bounds and fixed inputs."""
 
-    entries: tuple[_Entry, ...] = field(metadata=STATIC)
+    entries: tuple[Entry, ...] = field(metadata=STATIC)
     start: DesignVector
     """The vector of the design that was given."""
     lower: DesignVector
@@ -88,11 +60,15 @@ class Variables:
 
     @property
     def names(self) -> list[str]:
-        """A name for each number of the vector."""
+        """A name for each number of the vector: its key, and what it is where there are several of one name."""
+        labels = [
+            entry.key if isinstance(entry.key, str) else "(" + ", ".join(map(str, entry.key)) + ")"
+            for entry in self.entries
+        ]
         names = []
-        for entry in self.entries:
-            label = entry.key if isinstance(entry.key, str) else "(" + ", ".join(map(str, entry.key)) + ")"
-            names += [label + "".join(f"[{i}]" for i in index) for index in np.ndindex(entry.shape)]
+        for entry, label in zip(self.entries, labels, strict=True):
+            name = label if labels.count(label) == 1 else f"{GROUPS[entry.group]} {label}"
+            names += [name + "".join(f"[{i}]" for i in index) for index in np.ndindex(entry.shape)]
         return names
 
     def values(self, vector) -> Design:
@@ -133,7 +109,7 @@ class Variables:
         return replace(self, entries=entries, fixed_inputs=fixed)
 
 
-def _shape(entry: _Entry) -> jax.ShapeDtypeStruct:
+def _shape(entry: Entry) -> jax.ShapeDtypeStruct:
     return jax.ShapeDtypeStruct(entry.shape, dtypes.canonicalize_dtype(float))
 
 
@@ -147,14 +123,17 @@ def variables(
 ) -> Variables:
     """Make the variables of a design problem; see `optimize`. Raises ValueError for names and bounds that make no
     sense."""
-    bounded: list[_Bounded] = []
+    bounded: list[Bounded] = []
     fixed: dict[Any, Any] = {}
     _, size = centroid_and_length(np.concatenate([joint.frames_1[:, :3, 3] for joint in mechanism.all_joints]), np)
     for key, bounds in by_name(lengths, "lengths", "{('coupler', 'B', 'C'): (3.0, 5.0)}").items():
         length = find_length(mechanism.linkage, key)
         (now,) = lengths_now(mechanism, [key])
-        found = _entry(
-            "lengths", key, _free(f"length {key!r}", bounds, now), size=1.0 if length.quantity == "angle" else size
+        found = bounded_entry(
+            "lengths",
+            key,
+            free_between(f"length {key!r}", bounds, now),
+            size=1.0 if length.quantity == "angle" else size,
         )
         low, high = range_of(length)
         if length.quantity == "angle" and (np.any(found.lower < low) or np.any(found.upper > high)):
@@ -165,16 +144,16 @@ def variables(
         bounded.append(found)
     for key, bounds in by_name(points, "points", "{'A': (lower, upper)}").items():
         now = _point_now(mechanism, key)
-        bounded.append(_entry("points", key, _free(f"point {key!r}", bounds, now), size=size))
+        bounded.append(bounded_entry("points", key, free_between(f"point {key!r}", bounds, now), size=size))
     for key, given in by_name(drive, "driven displacements", "{'A': angles}").items():
         if isinstance(given, Free):
-            bounded.append(_entry("inputs", key, given, f"drive {key!r}"))
+            bounded.append(bounded_entry("inputs", key, given, f"drive {key!r}"))
         else:
             fixed[key] = given if callable(given) else _as_array(given)
     for key, given in by_name(extras, "extras", "{'first': jk.design.Free(0.0, -1.0, 1.0)}").items():
         if not isinstance(given, Free):
             raise ValueError(f"extra {key!r}: write jk.design.Free(start, lower, upper), got {given!r}")
-        bounded.append(_entry("extras", key, given, f"extra {key!r}"))
+        bounded.append(bounded_entry("extras", key, given, f"extra {key!r}"))
     if not bounded:
         raise ValueError("nothing to choose: give lengths, points, extras, or a drive with jk.design.Free")
     entries, *numbers = zip(*bounded, strict=True)
@@ -184,7 +163,7 @@ def variables(
     return Variables(entries, start, lower, upper, tuple(fixed), tuple(fixed.values()))
 
 
-def _check_ends(mechanism: Mechanism, entries: Sequence[_Entry]) -> None:
+def _check_ends(mechanism: Mechanism, entries: Sequence[Entry]) -> None:
     """Refuse a length that would not be what was chosen, since a point that is a variable too moves one of its ends."""
     keys = {
         group: [key for each in entries if each.group == group for key in (each.key, *(key for key, _ in each.ties))]
@@ -222,75 +201,39 @@ def _point_now(mechanism: Mechanism, key: Any) -> np.ndarray:
     return np.asarray((joint.frames_2[-1] if side == "frames_2" else joint.frames_1[0])[:3, 3], float)
 
 
-def _free(what: str, bounds: Any, now: Any) -> Free:
-    """Return bounds as numbers to be chosen: a pair (lower, upper) starts at `now`, a `Free` has a start of its own.
-
-    Raises ValueError for what is neither; `what` begins the message.
-    """
-    if isinstance(bounds, Free):
-        return bounds
-    try:
-        lower, upper = bounds
-    except (TypeError, ValueError):
-        raise ValueError(f"{what}: give its bounds as (lower, upper), got {bounds!r}") from None
-    return Free(now, lower, upper)
-
-
-def _entry(group: str, key: Any, free: Free, what: str = "", size: float = 0.0) -> _Bounded:
-    """Make a variable of a group ("lengths", "points", "inputs", "extras") with its start and its bounds.
-
-    A start outside of its bounds by rounding is moved onto them: of numbers as large as the bounds, and of those of the
-    mechanism, of this `size` in the same unit, that the start was measured with. Raises ValueError for numbers of
-    different shapes, bounds in the wrong order, a start beyond them, and NaN and infinity; `what` begins the message.
-    """
-    what = what or f"{group[:-1]} {key!r}"
-    try:
-        start, lower, upper = (exact_numbers(value, what) for value in (free.start, free.lower, free.upper))
-        start, lower, upper = (np.array(array) for array in np.broadcast_arrays(start, lower, upper))
-    except (TypeError, ValueError):
-        raise ValueError(f"{what}: start and bounds must be numbers of one shape, got {free!r}") from None
-    if not all(np.all(np.isfinite(array)) for array in (start, lower, upper)):
-        raise ValueError(f"{what}: start and bounds must be finite numbers, got {_said(start, lower, upper)}")
-    if np.any(lower > upper):
-        raise ValueError(f"{what}: the lower bound is above the upper one, {_said(start, lower, upper)}")
-    slack = ROUNDING * (size + np.abs(upper) + np.abs(lower))
-    if np.any(start < lower - slack) or np.any(start > upper + slack):
-        raise ValueError(
-            f"{what}: the bounds exclude the start, {_said(start, lower, upper)}; widen them, or give another start as "
-            "jk.design.Free(start, lower, upper)"
-        )
-    return _Bounded(_Entry(group, key, start.shape), np.clip(start, lower, upper), lower, upper)
-
-
-def _said(start, lower, upper) -> str:
-    return f"start {np.round(start, 6).tolist()}, bounds {np.round(lower, 6).tolist()} to {np.round(upper, 6).tolist()}"
-
-
-def _tied(mechanism: Mechanism, entries: Sequence[_Entry], ties: Mapping[Any, Any]) -> tuple[_Entry, ...]:
+def _tied(mechanism: Mechanism, entries: Sequence[Entry], ties: Mapping[Any, Any]) -> tuple[Entry, ...]:
     """Add to variables the further keys that take their values.
 
     `ties` maps such a key to the key of a variable, or to (key of the variable, function of its value). Raises
     ValueError for a source that is no variable, and for a key that is a variable itself or that the mechanism lacks.
     """
-    followers: dict[Any, list[tuple[Any, Callable | None]]] = {}
-    known = [entry.key for entry in entries]
+    followers: dict[tuple[str, Any], list[tuple[Any, Callable | None]]] = {}
+    known = [(entry.group, entry.key) for entry in entries]
     for key, source in by_name(ties, "ties", "{('rocker', 'C', 'D'): ('coupler', 'B', 'C')}").items():
         change = None
         if isinstance(source, tuple) and len(source) == 2 and callable(source[1]):
             source, change = source
-        if source not in known:
-            raise ValueError(f"tie of {key!r}: {source!r} is no variable; there are {', '.join(map(repr, known))}")
-        if key in known:
+        groups = [group for group, name in known if name == source]
+        if not groups:
+            said = ", ".join(repr(name) for _, name in known)
+            raise ValueError(f"tie of {key!r}: {source!r} is no variable; there are {said}")
+        if len(groups) > 1 and isinstance(key, tuple):  # of a part: no drive and no extra
+            groups = [group for group in groups if group in ("lengths", "points")]
+        if len(groups) > 1:
+            said = ", ".join(GROUPS[group] for group in groups)
+            raise ValueError(
+                f"tie of {key!r}: {source!r} names several variables ({said}); write a drive as a function of an "
+                "extra, and give extras other names"
+            )
+        (group,) = groups
+        if (group, key) in known:
             raise ValueError(f"tie of {key!r}: it is a variable of its own; give it in lengths or points, or in ties")
-        group = entries[known.index(source)].group
         if group == "lengths":
             find_length(mechanism.linkage, key)
         elif group == "points":
             _point_now(mechanism, key)
-        followers.setdefault(source, []).append((key, change))
-    return tuple(
-        replace(entry, ties=tuple(followers[entry.key])) if entry.key in followers else entry for entry in entries
-    )
+        followers.setdefault((group, source), []).append((key, change))
+    return tuple(replace(entry, ties=tuple(followers.get((entry.group, entry.key), entry.ties))) for entry in entries)
 
 
 def spread(variables: Variables, count: int, seed: int) -> Float[np.ndarray, "starts variables"]:

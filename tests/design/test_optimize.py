@@ -197,6 +197,12 @@ def test_a_start_is_within_its_bounds_in_any_unit(unit):
         (lambda m: m.coordinates["D"], r"must return one number, got an array of shape \(24, 1\)"),
         (lambda m: jnp.asarray(3.0), r"the loss is the same for every design: it must depend on the motion"),
         (lambda m: "good", r"must return one number, got str"),
+        (lambda m: jnp.max(m.coordinates["D"]) > 0.1, r"must return a number, got a truth value"),
+        (
+            lambda m: jnp.sum(m.coordinates["D"] > 0.1),
+            r"returns whole numbers, .* have no derivative; return what",
+        ),
+        (lambda m: jnp.sum(m.coordinates["D"]) * 1j, r"must return one number, got numbers of type complex128"),
         (
             lambda m: np.sum(np.asarray(m.coordinates["D"])),
             r"the loss is differentiated by JAX: write it with jax.numpy",
