@@ -25,6 +25,8 @@ MEMORY = 12
 """Pairs of steps and gradients that L-BFGS keeps."""
 HALVINGS = 15
 """Trials of a line search, each 0.4 times as long as the one before."""
+SHORTER = 1e4
+"""What first steps along the slope are divided by where a line search has failed."""
 
 
 class _State(NamedTuple):
@@ -140,13 +142,18 @@ def _programs(key: ProgramKey) -> _Programs:
 
         def iterate(carry, _):
             new = jax.vmap(one)(carry[0], carry[1], penalties, scales)
-            # a line search that fails leaves the point where it was
-            better = new[1].value <= carry[1].value
+            # a line search that fails leaves the point where it was, and the next one would fail alike: pairs of steps
+            # and gradients that led there are forgotten, and the slope followed with a shorter step
+            better = new[1].value < carry[1].value
+            units, old = carry
+            pairs = jnp.zeros_like(old.s_history)
+            anew = old._replace(s_history=pairs, y_history=pairs, num_updates=0 * old.num_updates)
+            anew = anew._replace(theta=SHORTER * old.theta)
 
             def keep(new, old):
                 return jnp.where(better.reshape(better.shape + (1,) * (new.ndim - 1)), new, old)
 
-            carry = jax.tree.map(keep, new, carry)
+            carry = jax.tree.map(keep, new, (units, anew))
             return carry, carry[1].value / scales
 
         scales = state.scale

@@ -174,12 +174,13 @@ def _check_finite(problem: Problem, motion: Motion, extras: dict[str, Any]) -> N
 
 
 def _check_known(problem: Problem, motion: Motion, extras: dict[str, Any]) -> None:
-    """Refuse a constraint that is NaN for the design given, which tells no direction in which it would be met."""
+    """Refuse a constraint that is NaN or -inf for the design given: no direction in which it would be met is known."""
     for name, rows in jax.jit(lambda *given: dict(problem.margins(*given)))(motion, extras).items():
-        if unknown := int(jnp.isnan(rows).sum()):
+        if unknown := int((jnp.isnan(rows) | (rows <= -HOPELESS)).sum()):
+            found = "NaN" if jnp.isnan(rows).any() else f"{float(rows.min()):.3g}"
             raise ValueError(
-                f"{name} is NaN for the design given, {unknown} of its {rows.size} numbers: it must be a number there; "
-                "mask poses that do not close (motion.closed) or have no forces, or start from another design"
+                f"{name} is {found} for the design given, {unknown} of its {rows.size} numbers: it must be a number "
+                "there; mask poses that do not close (motion.closed) or have no forces, or start from another design"
             )
 
 

@@ -30,8 +30,9 @@ from jaxkin.mechanism.sweep import sweep
 from jaxkin.solve.options import SolverOptions
 
 HOPELESS = 1e15
-"""Stands for residuals and losses that are not finite, and for what constraints lack that are NaN, so that the other
-designs of a batch are not spoilt: more than any loss in any unit, and its square is a number in float32."""
+"""Stands for residuals and losses that are not finite, and for what constraints lack that are NaN or -inf, so that the
+other designs of a batch are not spoilt: more than any residual in any unit, and than any loss over its first size; its
+square is a number in float32."""
 
 
 class Judged(NamedTuple):
@@ -86,7 +87,7 @@ class Problem:
         motion, extras, misfits = self.motion(vector)
         gaps = [rows for _, rows in self.gaps(motion, misfits)]
         margins = jnp.concatenate([jnp.zeros(0), *(rows for _, rows in self.margins(motion, extras))])
-        margins = jnp.where(jnp.isnan(margins), -HOPELESS, margins)
+        margins = jnp.maximum(jnp.where(jnp.isnan(margins), -HOPELESS, margins), -HOPELESS)
         return Judged(self.of_motion(motion, extras), jnp.concatenate(gaps), margins)
 
     def gaps(self, motion: Motion, misfits: dict[str, Any]) -> list[tuple[str, Float[Array, " gaps"]]]:

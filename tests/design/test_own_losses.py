@@ -83,6 +83,31 @@ def test_a_bad_foundis_worse_than_any_loss():
     assert 1.3 <= best.values["x"] < 1.4
 
 
+@pytest.mark.long
+def test_bounds_may_be_as_wide_as_none():
+    """Least (x - 1)^2 + 4 (y - 2)^2 between bounds of a million million times the way: no first step is short enough,
+    and a shorter one is tried. What is found is as exact as rounding of the bounds allows."""
+    best = jk.optimize(
+        lambda motion, extras: (extras["x"] - 1) ** 2 + 4 * (extras["y"] - 2) ** 2,
+        planar_fourbar(1.0),
+        drive={"A": FEW},
+        extras={"x": design.Free(2.0, -1e12, 1e12), "y": design.Free(0.0, -1e-9, 1e9)},
+    )
+    np.testing.assert_allclose([best.values["x"], best.values["y"]], [1.0, 2.0], atol=5e-4)
+
+
+@pytest.mark.long
+def test_a_constraint_that_is_infinite_is_no_number():
+    """-inf tells no direction in which it would be met; the result was a loss that is infinite."""
+    given = {"drive": {"A": FEW}, "constraints": [lambda m, e: jnp.where(e["x"] > 2.9, -jnp.inf, e["x"] - 1.5)]}
+    with pytest.raises(ValueError, match=r"constraint 0 .* is -inf for the design given, 1 of its 1 numbers"):
+        jk.optimize(lambda m, e: e["x"] ** 2, planar_fourbar(1.0), extras={"x": design.Free(2.95, 0.0, 3.0)}, **given)
+    best = jk.optimize(
+        lambda m, e: -(e["x"] ** 2), planar_fourbar(1.0), extras={"x": design.Free(1.0, 0.0, 3.0)}, **given
+    )
+    assert best.feasible and 2.5 < best.values["x"] <= 2.9
+
+
 @pytest.mark.parametrize(
     ("returned", "said"),
     [
