@@ -24,7 +24,9 @@ def __getattr__(name: str) -> typing.Any:
 
     module = _exports().get(name)
     if module is None:
-        raise AttributeError(f"module 'jaxkin' has no attribute {name!r}")
+        from jaxkin._guesses import missing
+
+        raise missing("module 'jaxkin'", name, list(_exports()))
     found = import_module(f"jaxkin.{name}") if module == "jaxkin" else getattr(import_module(module), name)
     globals()[name] = found
     return found

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from jaxkin._arguments import several, text
 from jaxkin._grouped import SCREEN, grouped, kind_of, products, shortened
+from jaxkin._guesses import Guided
 from jaxkin._names import counted, match_parts, may_be_pattern, nearest
 from jaxkin.assembly.exported import Exported
 from jaxkin.assembly.from_export import from_export
@@ -34,7 +35,7 @@ _DEFAULT_TOLERANCES = (None, ContactTolerance.angle, ContactTolerance.fit)
 
 
 @dataclass(frozen=True, eq=False)
-class Assembly:
+class Assembly(Guided):
     """Solids in their assembled pose, as they were read."""
 
     parts: tuple[Part, ...]

@@ -44,7 +44,7 @@ class Face:
         return total_area(self.triangles)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Part:
     """A rigid part in its assembled pose, in world coordinates and in the unit of the assembly."""
 
@@ -73,6 +73,9 @@ class Part:
     """What the file says of its material, kg/m^3; None where it says nothing."""
     is_solid: bool = True
     """Whether the triangles are those of the part: False where its file has none, and a small box marks its place."""
+
+    def __repr__(self) -> str:
+        return f"<Part {self.name!r}: {len(self.faces)} faces, {len(self.triangles)} triangles>"
 
     @cached_property
     def box(self) -> Float[np.ndarray, "2 3"]:

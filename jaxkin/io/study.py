@@ -8,6 +8,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from jaxkin._guesses import Guided
 from jaxkin._names import listed, nearest
 from jaxkin.assembly.wheels import wheels_last
 from jaxkin.contacts.contact import Contacts
@@ -24,8 +25,8 @@ if TYPE_CHECKING:
     from jaxkin.mechanism.motion import Motion
 
 
-@dataclass(frozen=True, eq=False)
-class Study:
+@dataclass(frozen=True, eq=False, repr=False)
+class Study(Guided):
     """All that a sweep needs, each step taken when it is first asked for."""
 
     source: str
@@ -60,6 +61,9 @@ class Study:
     """Of lengths, where there is no assembly to say it."""
     effects: Settings = field(default_factory=dict)
     """The effects that are asked for, with their settings."""
+
+    def __repr__(self) -> str:
+        return f"<Study {self.source!r}>"
 
     @cached_property
     def contacts(self) -> Contacts:

@@ -41,7 +41,7 @@ _CONTACT_STATES = {(JointKind.of_state(state.letter), state.movements): state fo
 a point with the same letter."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Joint:
     """A joint between two parts. It is a pytree: frames, pitch and the numbers of curves are leaves, all else but
     `evidence` is static."""
@@ -65,6 +65,9 @@ class Joint:
     curves: tuple[Followed | None, ...] = ()
     """For each movement the curve or the surface that it follows, None for others; empty where none follows
     one."""
+
+    def __repr__(self) -> str:
+        return f"<{getattr(self.kind, 'value', self.kind)} joint {self.name!r}: {' - '.join(self.parts)}>"
 
     @property
     def coordinates(self) -> tuple[str, ...]:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import jax
 
+from jaxkin._guesses import Guided
 from jaxkin._named import Named
 from jaxkin._names import nearest
 from jaxkin.contacts.contact import Contact
@@ -39,8 +40,8 @@ if TYPE_CHECKING:
     from jaxkin.mechanism.targets import DriveKey
 
 
-@dataclass(frozen=True, eq=False)
-class Mechanism:
+@dataclass(frozen=True, eq=False, repr=False)
+class Mechanism(Guided):
     """Parts held together by joints, in their assembled pose: what users hold.
 
     A pytree of its linkage, whose names and structure are static, so that a new geometry compiles nothing anew. Solids,
@@ -283,14 +284,13 @@ class Mechanism:
 
         return close(self, hold, align)
 
-    def __str__(self) -> str:
-        return self.describe()
-
     def describe(self, verbose: bool = False) -> str:
         """Tell joints, loops, mobility and notes; of many of a kind only the first one, unless `verbose`."""
         from jaxkin.mechanism.describe import describe_mechanism
 
         return describe_mechanism(self, verbose)
+
+    __str__ = describe
 
 
 jax.tree_util.register_pytree_node(

@@ -7,7 +7,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, NoReturn
 
 import jax
 import jax.numpy as jnp
@@ -15,8 +15,9 @@ import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin._arguments import by_name, numbers
+from jaxkin._guesses import Guided
 from jaxkin._named import Named
-from jaxkin._names import listed, nearest
+from jaxkin._names import counted, listed, nearest
 from jaxkin._runs import runs
 from jaxkin._traced import traced
 from jaxkin.geometry.movements import is_length
@@ -38,8 +39,8 @@ _INTERVALS = 3
 """Intervals of the drive in which poses are closed that a text names, the longest ones: more are noise of a limit."""
 
 
-@dataclass(frozen=True, eq=False)
-class Motion:
+@dataclass(frozen=True, eq=False, repr=False)
+class Motion(Guided):
     """The poses of a mechanism for a range of inputs. A pytree; every array has the poses as its first axis.
 
     Poses that did not close are there too: their displacements are those of least residual, `status` says what became
@@ -175,12 +176,26 @@ class Motion:
 
         return save(self, directory, only)
 
+    def __getitem__(self, name: object) -> NoReturn:
+        raise TypeError(
+            "a motion has no items: write motion.transforms['part'] or motion.points('part', (x, y, z)) for a part, "
+            f"motion.coordinates['joint'] for a joint, motion.inputs for the drive; got {name!r}"
+        )
+
+    def __iter__(self) -> NoReturn:
+        raise TypeError("a motion is no sequence: each of its arrays has the poses as its first axis")
+
+    def __repr__(self) -> str:
+        return f"<{self._headline()}>"
+
+    def _headline(self) -> str:
+        shape = np.shape(self.status)  # what JAX puts in the place of arrays may have none
+        poses = f" over {counted(shape[0], 'pose')}" if shape else ""
+        return f"Motion of {len(self.mechanism.parts)} parts{poses}, driven by {', '.join(self.inputs)}"
+
     def __str__(self) -> str:
         if traced(self):
-            return (
-                f"Motion of {len(self.mechanism.parts)} parts over {self.status.shape[0]} poses, driven by "
-                f"{', '.join(self.inputs)}: traced by JAX, its numbers are known outside of jit, vmap and grad"
-            )
+            return f"{self._headline()}: traced by JAX, its numbers are known outside of jit, vmap and grad"
         counts = np.bincount(np.asarray(self.status), minlength=len(Status))
         found = Tally(counts, largest_residuals(self), self.lost_contacts, breaches(self))
         found = found._replace(within=first_within(self), intervals=_closed_intervals(self))

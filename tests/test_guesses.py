@@ -1,0 +1,97 @@
+"""Names that users try first, and that are not there: the errors say what to write instead, and that is there."""
+
+import copy
+import pickle
+import re
+
+import jax
+import numpy as np
+import pytest
+
+import jaxkin as jk
+from jaxkin import _guesses
+from reference.mechanisms import fourbar_through
+
+
+@pytest.fixture(scope="module")
+def motion():
+    mechanism = fourbar_through((0, 0), (1, 0), (3.2, 2.9), (4, 0))
+    return mechanism.sweep({next(iter(mechanism.joints)): np.linspace(0, 0.1, 5)})
+
+
+def told(owner, name):
+    with pytest.raises(AttributeError) as raised:
+        getattr(owner, name)
+    return str(raised.value)
+
+
+@pytest.mark.parametrize("name", ["plot", "to_csv", "dof", "ik", "jacobian", "torque_of_drive", "animate"])
+def test_names_of_other_programs_are_answered_by_all_that_users_hold(motion, name):
+    for owner in (jk, motion, motion.mechanism, jk.load(jk_example())):
+        said = told(owner, name)
+        assert f"no attribute {name!r}" in said
+        assert ("jk." in said or "motion." in said or "mechanism." in said) == (name != "torque_of_drive")
+
+
+def jk_example():
+    from jaxkin.examples import path
+
+    return path("fourbar")
+
+
+def test_functions_and_holders_of_a_name_are_told(motion):
+    assert "did you mean jk.clashes(motion, ...)?" in told(motion, "clashes")
+    assert "did you mean jk.limits(mechanism, ...)?" in told(motion.mechanism, "limits")
+    assert "did you mean mechanism.sweep(...)?" in told(jk, "sweep")
+    assert "did you mean motion.transforms?" in told(motion.mechanism, "transforms")
+    assert "did you mean 'lengths'?" in told(motion.mechanism, "lenghts")
+
+
+def test_what_is_advised_is_there(motion):
+    holders = {"jk": jk, "motion": jk.Motion, "mechanism": jk.Mechanism, "joint": jk.Joint}
+    for advice in _guesses._WORDS:
+        found = re.findall(r"\b(jk|motion|mechanism|joint)\.((?:\w+\.)*\w+)", advice)
+        assert found
+        for holder, names in found:
+            owner = holders[holder]
+            for name in names.split("."):
+                if name in ("html", "png", "csv", "npz", "glb", "json"):  # a file
+                    continue
+                fields = getattr(owner, "__dataclass_fields__", {})
+                assert name in fields or hasattr(owner, name) or name in ("loops", "plot", "path", "stroke"), advice
+                owner = getattr(owner, name, None)
+
+
+def test_no_advised_name_is_there_already(motion):
+    names = set(_guesses._ADVICE)
+    assert not names & set(dir(jk.Motion) + list(jk.Motion.__dataclass_fields__))
+    assert not names & set(dir(jk)), "the advice would never be read"
+
+
+def test_private_names_are_answered_without_advice(motion):
+    assert told(motion, "_repr_html_").endswith("no attribute '_repr_html_'")
+    assert not hasattr(motion, "__jax_array__")
+
+
+def test_an_error_within_a_property_is_not_hidden(motion, monkeypatch):
+    monkeypatch.setattr(jk.Motion, "closed", property(lambda self: self.status.nothing_such))
+    with pytest.raises(AttributeError, match="nothing_such"):
+        motion.closed  # noqa: B018
+
+
+def test_what_users_hold_prints_itself_in_one_line(motion):
+    held = [motion, motion.mechanism, jk.load(jk_example()).parts[0], *motion.mechanism.all_joints]
+    for each in [*held, jax.tree.map(lambda leaf: None, motion)]:
+        assert "\n" not in repr(each) and len(repr(each)) < 100
+    assert "over 5 poses" in repr(motion)
+
+
+def test_copies_and_pickles_are_not_answered_by_advice(motion):
+    for again in (copy.deepcopy(motion), pickle.loads(pickle.dumps(motion))):
+        np.testing.assert_array_equal(again.status, motion.status)
+
+
+@pytest.mark.parametrize("use", [lambda motion: motion["coupler"], lambda motion: motion[0], list])
+def test_a_motion_has_no_items(motion, use):
+    with pytest.raises(TypeError, match=r"motion\.(transforms|inputs)|its arrays"):
+        use(motion)
