@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin._files import quoted, save_figure, save_table
+from jaxkin._files import DPI, quoted, save_figure, save_table
 from jaxkin.joints.joint import Joint
+from jaxkin.view.sheet import text_width
 
 NAMED = 12
 """Lines of one axes that have a colour, a style and a name: more are not told apart."""
@@ -19,6 +20,12 @@ _STYLES = ("-", "--", "-.", ":")
 another."""
 _COLUMNS = 3
 """Columns of a legend at most."""
+_WIDTH = 7.5
+"""Width of the picture in inches."""
+_LETTERS = 8.33
+"""Size of the letters of the legend, in points."""
+_BESIDE = 0.9
+"""Inches beside each name of the legend, for its line and the gaps."""
 
 
 def draw_lines(
@@ -43,12 +50,14 @@ def draw_lines(
 
     labels = [label] * len(names) if isinstance(label, str) else list(label)
     groups = [[k for k, own in enumerate(labels) if own == each] for each in dict.fromkeys(labels)] or [[]]
-    lines = [-(-min(len(group), NAMED + 1) // _COLUMNS) for group in groups]
+    names = [_fitted(name) for name in names]
+    columns = [_columns([names[k] for k in group]) for group in groups]
+    lines = [-(-min(len(group), NAMED + 1) // many) for group, many in zip(groups, columns, strict=True)]
     heights = [max(4.0 if len(groups) > 1 else 4.8, 3.4 + 0.22 * count) for count in lines]
-    figure = Figure(figsize=(7.5, sum(heights)), layout="constrained")
+    figure = Figure(figsize=(_WIDTH, sum(heights)), layout="constrained")
     panels = figure.subfigures(len(groups), 1, squeeze=False, height_ratios=heights)[:, 0]
     across = np.arange(rows.shape[1]) if at is None else at
-    for panel, group in zip(panels, groups, strict=True):
+    for panel, group, many in zip(panels, groups, columns, strict=True):
         axes = panel.add_subplot()
         _lines(axes, across, [names[k] for k in group], rows[group])
         if len(across):  # all poses are seen, also those of which nothing is known
@@ -61,14 +70,35 @@ def draw_lines(
         axes.grid(alpha=0.3)
         if group:
             panel.legend(
-                fontsize="small",
+                fontsize=_LETTERS,
                 frameon=False,
                 loc="outside lower center",
-                ncols=min(len(group), _COLUMNS),
+                ncols=many,
                 handlelength=3,
             )
     figure.axes[0].set_title(title, fontsize="medium")
     return save_figure(figure, path)
+
+
+def _columns(names: Sequence[str]) -> int:
+    """Find how many columns of a legend fit into the picture, one at least."""
+    widest = max(map(_width, names), default=0.0)
+    return max(1, min(len(names), _COLUMNS, int(_WIDTH / (widest + _BESIDE))))
+
+
+def _fitted(name: str) -> str:
+    """Shorten a name that the picture is too narrow for in its middle: its end tells coordinates apart."""
+    kept = len(name)
+    shortened = name
+    while kept > 1 and _width(shortened) > _WIDTH - _BESIDE:
+        kept -= 1
+        shortened = f"{name[: kept - kept // 2]}…{name[len(name) - kept // 2 :]}"
+    return shortened
+
+
+def _width(name: str) -> float:
+    """Measure a name of the legend, in inches."""
+    return text_width(name, _LETTERS) / DPI
 
 
 def _lines(

@@ -99,7 +99,7 @@ def draw_scale(sheet: Sheet, unit: str) -> None:
     sheet.write(((left + right) / 2, y - 18), f"{length:g} {unit}".strip(), 8, GREY, ha="center")
 
 
-def text_width(text: str, size: int, weight: str = "normal") -> float:
+def text_width(text: str, size: float, weight: str = "normal") -> float:
     """Measure a line of text as `Sheet.write` writes it, in pixels."""
     from matplotlib.font_manager import FontProperties
     from matplotlib.textpath import text_to_path

@@ -58,6 +58,21 @@ def test_of_many_lines_the_largest_are_named_and_told_apart(drawn):
     assert len(grey) == 28 and all(line.get_zorder() < handles[0].get_zorder() for line in grey)
 
 
+@pytest.mark.parametrize("letters", [4, 35, 90, 400])
+def test_legends_of_long_names_are_within_the_picture(letters, drawn):
+    """Joints of CAD systems have names of two parts each; the end of a name tells its coordinates apart."""
+    names = [f"{'abcdefg <1>-' * (letters // 12)}hijk.{end}" for end in ("x", "y", "z", "phi")]
+    pose_plot.draw_lines(names, np.outer([1, 2, 3, 4.0], np.ones(4)), ["a", "a", "a", "b"], "", Path("rates.png"))
+    (figure,) = drawn
+    figure.draw_without_rendering()
+    for panel in figure.subfigs:
+        (legend,) = panel.legends
+        box = legend.get_window_extent()
+        assert box.x0 >= 0 and box.x1 <= figure.bbox.x1
+        told = [text.get_text() for text in legend.get_texts()]
+        assert [each[-3:] for each in told] == [each[-3:] for each in (names[:3] if len(told) == 3 else names[3:])]
+
+
 def test_labels_are_not_cut_off(tmp_path):
     """Three views of one scale, as of a swept volume: numbers along the first one need more room than at first."""
     x, y, z = (0.656, 5.958), (-1.585, 2.494), (-0.930, 5.596)
