@@ -73,6 +73,15 @@ def save_figure(figure: Figure, path: Path) -> Path:
     return path
 
 
+def text_width(text: str, size: float, weight: str = "normal") -> float:
+    """Measure a line of text of letters of a size in points, in pixels of a picture."""
+    from matplotlib.font_manager import FontProperties
+    from matplotlib.textpath import text_to_path
+
+    width, _, _ = text_to_path.get_text_width_height_descent(text, FontProperties(size=size, weight=weight), False)
+    return width * DPI / 72
+
+
 def quoted(text: str) -> str:
     """Write a text in quotes, as a field of comma-separated values: a quote in it becomes two."""
     return '"' + text.replace('"', '""') + '"'

@@ -21,6 +21,12 @@ class Named(dict[str, Entry]):
         """What an entry is called in the message: "joint"."""
 
     def __missing__(self, name: Any) -> NoReturn:
+        joint = str(name).rpartition(".")[0]
+        if self.what == "joint" and joint in self:  # a coordinate, as drives, inputs and tables name it
+            raise KeyError(
+                f"{name!r} is a coordinate, and entries are by joint: write [{joint!r}], whose last axis has the "
+                f"coordinates in turn, as mechanism.joints[{joint!r}].coordinates names them"
+            )
         raise KeyError(f"there is no {self.what} {name!r}{nearest(str(name), self)}")
 
 

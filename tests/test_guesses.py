@@ -91,6 +91,19 @@ def test_copies_and_pickles_are_not_answered_by_advice(motion):
         np.testing.assert_array_equal(again.status, motion.status)
 
 
+def test_a_coordinate_in_place_of_its_joint_is_told_where_it_is(motion):
+    """Drives, inputs and tables name "joint.coordinate", entries are by joint: that one was not found, without more."""
+    for named in (motion.coordinates, motion.mechanism.joints):
+        with pytest.raises(KeyError, match=r"'B.phi' is a coordinate.*write \['B'\]"):
+            named["B.phi"]
+    assert motion.mechanism.joints["B"].coordinates == ("phi",)
+
+
+def test_a_study_in_place_of_geometry_is_sent_to_load_study(tmp_path):
+    with pytest.raises(ValueError, match=r"jk\.load_study\('.*machine\.toml'\)"):
+        jk.load(tmp_path / "machine.toml")
+
+
 @pytest.mark.parametrize("use", [lambda motion: motion["coupler"], lambda motion: motion[0], list])
 def test_a_motion_has_no_items(motion, use):
     with pytest.raises(TypeError, match=r"motion\.(transforms|inputs)|its arrays"):

@@ -210,9 +210,11 @@ def sweep(
 ) -> None:
     """Move an assembly through a range of displacements of some joints, and write its motion.
 
-    Written are arrays (motion.npz), a table (motion.csv), an animation (motion.glb), a page for the browser
-    (motion.html) and a picture (motion.png). Of more than 200,000 poses only arrays are written, without those of the
-    parts. Effects are computed only where they are asked for.
+    Written are arrays (motion.npz), a table (motion.csv), an animation
+    (motion.glb), a page for the browser (motion.html), a picture (motion.png) and
+    a chart of the joints (coordinates.png). Of more than 200,000 poses only
+    arrays are written, without those of the parts. Effects are computed only
+    where they are asked for.
     """
     with one_line_errors():
         options = Options(

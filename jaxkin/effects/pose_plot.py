@@ -9,9 +9,8 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin._files import DPI, quoted, save_figure, save_table
+from jaxkin._files import DPI, quoted, save_figure, save_table, text_width
 from jaxkin.joints.joint import Joint
-from jaxkin.view.sheet import text_width
 
 NAMED = 12
 """Lines of one axes that have a colour, a style and a name: more are not told apart."""

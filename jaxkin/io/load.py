@@ -147,6 +147,8 @@ def _read(
         return read_mesh(path, name, seconds)
     if suffix in _PACKED:
         raise ValueError(f"{path}: load does not unpack files; unpack it, and load the STEP file or the meshes in it")
+    if suffix == ".toml":
+        raise ValueError(f"{path}: load reads geometry and robots; a study is read by jk.load_study({str(path)!r})")
     if suffix not in STEP_SUFFIXES:
         raise ValueError(
             f"{path}: load reads STEP files ({', '.join(STEP_SUFFIXES)}), meshes ({', '.join(MESHES)}), "

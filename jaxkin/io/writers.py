@@ -12,6 +12,7 @@ from jaxkin._files import whole
 from jaxkin._traced import traced
 from jaxkin.io.gltf import write_animation
 from jaxkin.io.tables import write_arrays, write_table
+from jaxkin.view.coordinates_plot import draw_coordinates
 from jaxkin.view.page import page
 from jaxkin.view.storyboard import storyboard
 
@@ -27,6 +28,7 @@ WRITERS: dict[str, Writer] = {
     "motion.glb": write_animation,
     "motion.html": page,
     "motion.png": storyboard,
+    "coordinates.png": draw_coordinates,
 }
 """By the name of the file, in the order in which they are written: tables before all else, since they are cheap and
 are there even if a picture fails."""
@@ -40,14 +42,20 @@ def save(
 ) -> tuple[Path, ...]:
     """Write the motion's files into a directory, made if it is not there; `only` chooses some of them by name.
 
+    A path that ends as one of the files does, as in "rocker.csv", and that is no directory, is that one file.
+
     Returns the paths written. Each file appears whole or not at all. Raises ValueError for an unknown file name and
     for traced numbers, NotADirectoryError where the directory is a file, and OSError, naming the file, where one cannot
     be written: those before it are there by then, those after it are not.
     """
     if traced(motion):
         raise ValueError("the numbers of the motion are traced by JAX: call save outside of jit, vmap and grad")
-    chosen = _choose(only, writers)
     directory = Path(directory)
+    if only is None and not directory.is_dir():
+        single = [name for name in writers if directory.suffix and Path(name).suffix == directory.suffix.lower()]
+        if single:
+            return (_write(motion, directory, writers[single[0]]),)
+    chosen = _choose(only, writers)
     try:
         directory.mkdir(parents=True, exist_ok=True)
     except (FileExistsError, NotADirectoryError):

@@ -168,7 +168,7 @@ class Motion(Guided):
         return jnp.einsum("pij,j->pi", transforms[:, :3, :3], as_point(point)) + transforms[:, :3, 3]
 
     def save(self, directory: str | os.PathLike[str], only: str | Collection[str] | None = None) -> tuple[Path, ...]:
-        """Write tables, animation and pictures into a directory; returns the paths.
+        """Write tables, animation and pictures into a directory, or one file, as in "rocker.csv"; returns the paths.
 
         `only` chooses some of the files by name; see `jaxkin.io.writers.save`.
         """

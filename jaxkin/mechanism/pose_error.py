@@ -32,8 +32,8 @@ def check(motion: Motion) -> None:
     """Raise PoseError if a pose is off the branch or beyond limits; ValueError where JAX traces the statuses."""
     if traced(motion.status):
         raise ValueError(
-            "throw=True and check() look at numbers, which JAX traces here: inside jit, vmap and grad read "
-            "motion.status, and write check() outside"
+            "check(), throw=True and solve() without throw=False look at numbers, which JAX traces here: inside jit, "
+            "vmap and grad write throw=False and read the status, and check() outside"
         )
     if not np.all(_usable(motion)):
         raise PoseError(motion)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from jaxkin._files import DPI, save_figure
+from jaxkin._files import DPI, save_figure, text_width
 from jaxkin.view.illustration import INK, Canvas
 
 if TYPE_CHECKING:
@@ -97,15 +97,6 @@ def draw_scale(sheet: Sheet, unit: str) -> None:
     for x, height in (([left, right], 0), ([left, left], 7), ([right, right], 7)):
         sheet.axes.plot(x, [y - height, y + height], color=GREY, linewidth=1.0, solid_capstyle="butt")
     sheet.write(((left + right) / 2, y - 18), f"{length:g} {unit}".strip(), 8, GREY, ha="center")
-
-
-def text_width(text: str, size: float, weight: str = "normal") -> float:
-    """Measure a line of text as `Sheet.write` writes it, in pixels."""
-    from matplotlib.font_manager import FontProperties
-    from matplotlib.textpath import text_to_path
-
-    width, _, _ = text_to_path.get_text_width_height_descent(text, FontProperties(size=size, weight=weight), False)
-    return width * DPI / 72
 
 
 def fitted(text: str, room: float, size: int, weight: str = "normal") -> str:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from jaxkin._files import text_width
 from jaxkin.view.drawing import body_label
 from jaxkin.view.illustration import FAINT_INK, INK, Canvas, Layer, compose, draw
 from jaxkin.view.labels import Input, headline, inputs, title, values
@@ -24,7 +25,6 @@ from jaxkin.view.sheet import (
     draw_scale,
     fitted,
     make_sheet,
-    text_width,
 )
 
 if TYPE_CHECKING:

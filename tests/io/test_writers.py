@@ -82,6 +82,16 @@ def test_files_are_chosen_by_name(motion, tmp_path):
     assert not (tmp_path / "untouched").exists()
 
 
+def test_a_path_that_ends_as_a_file_does_is_that_file(motion, tmp_path):
+    """`save("rocker.csv")` made a folder of this name, with all files in it."""
+    (path,) = motion.save(tmp_path / "rocker.csv")
+    assert path == tmp_path / "rocker.csv" and path.read_text().startswith("pose")
+    assert [each.name for each in tmp_path.iterdir()] == ["rocker.csv"]
+    (tmp_path / "v1.csv").mkdir()
+    (inside,) = motion.save(tmp_path / "v1.csv", only="motion.csv")
+    assert inside.read_text() == path.read_text()
+
+
 @pytest.mark.parametrize("inside", [".", "out"])
 def test_a_file_is_no_directory(motion, tmp_path, inside):
     (tmp_path / "taken").write_text("mine")
