@@ -3,6 +3,7 @@
 import copy
 import pickle
 import re
+from pathlib import Path
 
 import jax
 import numpy as np
@@ -102,6 +103,16 @@ def test_a_coordinate_in_place_of_its_joint_is_told_where_it_is(motion):
 def test_a_study_in_place_of_geometry_is_sent_to_load_study(tmp_path):
     with pytest.raises(ValueError, match=r"jk\.load_study\('.*machine\.toml'\)"):
         jk.load(tmp_path / "machine.toml")
+
+
+def test_an_example_that_the_guides_read_is_found(tmp_path, monkeypatch):
+    """All pages of the guide read `fourbar.step`, which whoever tries them has in no folder."""
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(FileNotFoundError, match=r"load\(path\('fourbar'\)\), or copy (.*fourbar\.step)") as raised:
+        jk.load("fourbar.step")
+    assert Path(str(raised.value).rpartition("copy ")[2]).is_file()
+    with pytest.raises(FileNotFoundError, match=r"machine\.step does not exist: give the path"):
+        jk.load("machine.step")
 
 
 @pytest.mark.parametrize("use", [lambda motion: motion["coupler"], lambda motion: motion[0], list])

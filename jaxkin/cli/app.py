@@ -152,9 +152,7 @@ def loops(
         with progress(3) as step:
             study = run.find_joints(files, options, step)
         if png:
-            from jaxkin._files import save_figure
-
-            save_figure(study.mechanism.structure.plot(), png)
+            study.mechanism.structure.plot(png)
         report.print_structure(study.mechanism)
         if study.ranges:
             report.say(f"\n{study.mechanism.plan(study.ranges)}")

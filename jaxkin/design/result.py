@@ -12,7 +12,7 @@ from zipfile import BadZipFile
 
 import numpy as np
 
-from jaxkin._files import whole
+from jaxkin._files import save_figure, whole
 from jaxkin._names import counted
 from jaxkin.design.objective import Objective
 from jaxkin.geometry.characteristic_length import centroid_and_length
@@ -105,8 +105,9 @@ class Optimum:
         lines += [f"  {name.ljust(width)}  {value:.6g}" for name, value in self.values.items()]
         return "\n".join(lines)
 
-    def plot(self) -> Any:
-        """Draw a matplotlib figure: the losses over the iterations, and the objective before and after."""
+    def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
+        """Draw a matplotlib figure: the losses over the iterations, and the objective before and after. It is written
+        into a picture file where a path is given."""
         from matplotlib.figure import Figure
 
         objective, motion = self.loss if isinstance(self.loss, Objective) else None, self.motion
@@ -130,6 +131,8 @@ class Optimum:
             axes[1].legend(frameon=False)
         for each in axes:
             each.spines[["top", "right"]].set_visible(False)
+        if path is not None:
+            save_figure(figure, Path(path))
         return figure
 
     def save(self, path: str | os.PathLike[str]) -> Path:

@@ -11,6 +11,8 @@ from pathlib import Path
 import numpy as np
 
 from jaxkin.assembly.assembly import Assembly
+from jaxkin.examples import EXAMPLES
+from jaxkin.examples import path as example_file
 from jaxkin.geometry.part import Part, size
 from jaxkin.geometry.units import check_unit
 from jaxkin.io.exports import read_exported
@@ -87,6 +89,11 @@ def _from_file(
 ) -> Assembly:
     """Load the assembly in one file; the arguments are those of `load`."""
     name, suffix = path.name, path.suffix.lower()
+    if not path.exists() and (shipped := [key for key, each in EXAMPLES.items() if each.file == name]):
+        raise FileNotFoundError(
+            f"{path} does not exist; one of this name comes with the package: from jaxkin.examples import path, and "
+            f"jk.load(path({shipped[0]!r})), or copy {example_file(shipped[0])}"
+        )
     root = read_xml(path) if suffix == XML else None
     if suffix in ROBOT_SUFFIXES or (root is not None and root.tag in ROBOT_ROOTS):
         parts, said, exported = read_robot(path, root, loops, seconds)

@@ -10,12 +10,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import groupby
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Int
 
 from jaxkin._arguments import several
+from jaxkin._files import save_figure
 from jaxkin.topology.checks import check_chords, check_connected, check_letters, check_names, merged_name
 from jaxkin.topology.components import connected
 from jaxkin.topology.describe import describe
@@ -152,14 +154,16 @@ class Structure:
                 tree.append((part, parent, joint, sign))
         return tuple(tree)
 
-    def plot(self) -> Figure:
-        """Draw the parts and joints with the loops on them, and the tree of Fig. 4: a matplotlib figure.
-
-        `plot().savefig("loops.png")` writes it. Raises ValueError for more parts than a drawing can show.
+    def plot(self, path: str | Path | None = None) -> Figure:
+        """Draw the parts and joints with the loops on them, and the tree of Fig. 4: a matplotlib figure, which is
+        written into a picture file where a path is given. Raises ValueError for more parts than a drawing can show.
         """
         from jaxkin.view.structure import plot_structure
 
-        return plot_structure(diagram(self))
+        figure = plot_structure(diagram(self))
+        if path is not None:
+            save_figure(figure, Path(path))
+        return figure
 
     def __str__(self) -> str:
         return describe(self.elements, self.loops)

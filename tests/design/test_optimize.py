@@ -116,7 +116,7 @@ def test_a_variable_without_influence_is_named_and_keeps_its_value():
 
 @pytest.mark.long
 @pytest.mark.parametrize("solver", [design.LevenbergMarquardt(), design.LBFGS()], ids=str)
-def test_a_loss_that_no_variable_changes_is_not_searched(solver):
+def test_a_loss_that_no_variable_changes_is_not_searched(solver, tmp_path):
     """Where the points of the crank are follows from the angle alone, but for rounding."""
     objective = design.path("crank", (2.0, 1.0), np.ones((3, 2)))
     with pytest.warns(UserWarning, match=r"the loss does not depend on \(coupler, B, C\)"):
@@ -131,7 +131,7 @@ def test_a_loss_that_no_variable_changes_is_not_searched(solver):
     assert best.reason.startswith("there was nothing to search for")
     assert best.history.shape == (0, 1) and best.feasible
     assert best.value == pytest.approx(float(objective(START.sweep({"A": TURN[:3]}))), rel=1e-12)
-    assert best.plot().axes
+    assert best.plot(tmp_path / "best.png").axes and (tmp_path / "best.png").is_file()
 
 
 @pytest.mark.long

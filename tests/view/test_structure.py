@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from matplotlib.text import Annotation
 
-from jaxkin._files import save_figure
 from jaxkin.topology.structure import Structure, diagram, structure
 from jaxkin.view.layout import layout
 from jaxkin.view.tree import boxes
@@ -135,8 +134,8 @@ def test_large_structures_are_drawn_or_refused() -> None:
 @pytest.mark.long
 @pytest.mark.parametrize("found", [chain(1), chain(2), MIXED], ids=["one part", "two parts", "mixed"])
 def test_the_file_appears_whole_or_not_at_all(found: Structure, tmp_path) -> None:
-    save_figure(found.plot(), tmp_path / "loops.png")
+    found.plot(tmp_path / "loops.png")
     assert (tmp_path / "loops.png").read_bytes().startswith(b"\x89PNG")
     with pytest.raises(FileNotFoundError):
-        save_figure(found.plot(), tmp_path / "none" / "loops.png")
+        found.plot(tmp_path / "none" / "loops.png")
     assert [file.name for file in tmp_path.iterdir()] == ["loops.png"]
