@@ -2,7 +2,8 @@
 
 Each notebook becomes a page in Markdown, and each picture among its outputs a file that the page shows; nothing is run.
 A comment "constants of FOLDER..." in a page is replaced by the constants of the modules there, with their docstrings,
-"joints by hand" by the references of the functions that make them, and "exports that no other page has" by those of
+"joints by hand" by the references of the functions that make them, "objectives, constraints and measures" by those of
+`jaxkin.design`, and "exports that no other page has" by those of
 what else can be imported from jaxkin.
 """
 
@@ -45,6 +46,8 @@ def on_page_markdown(markdown: str, **_) -> str:
     joints = [f"::: jaxkin.{name}" for name in joints_by_hand()]
     markdown = markdown.replace("<!-- joints by hand -->", "\n\n".join(joints))
     markdown = markdown.replace("<!-- exports that no other page has -->", "\n\n".join(other_exports()))
+    designs = [f"::: jaxkin.design.{name}" for name in of_designs()]
+    markdown = markdown.replace("<!-- objectives, constraints and measures -->", "\n\n".join(designs))
     return re.sub(r"<!-- constants of (.*?) -->", lambda match: constants_of(match[1].split()), markdown)
 
 
@@ -52,9 +55,22 @@ def other_exports() -> list[str]:
     """References of the names that `jaxkin` exports and no page of the API has."""
     pages = "\n".join(path.read_text(encoding="utf-8") for path in (ROOT / "docs" / "api").glob("*.md"))
     listed = {*re.findall(r"^::: jaxkin\.(\w+)", pages, re.M), *joints_by_hand()}
-    imports = [node for node in module_body("jaxkin/_api.py") if isinstance(node, ast.ImportFrom)]
-    exports = [alias.asname or alias.name for node in imports for alias in node.names]
-    return [f"::: jaxkin.{name}" for name in exports if name != "*" and name not in listed]
+    return [f"::: jaxkin.{name}" for name in exports("jaxkin/_api.py") if name != "*" and name not in listed]
+
+
+def of_designs() -> list[str]:
+    """Names that `jaxkin.design` exports, `jaxkin` does not, and the page of designs does not have by itself: what a
+    package imports from its modules is no member of it for the pages of references."""
+    page = (ROOT / "docs" / "api" / "design.md").read_text(encoding="utf-8")
+    listed = {*re.findall(r"^::: jaxkin\.design\.(\w+)", page, re.M), *exports("jaxkin/_api.py", "jaxkin.design")}
+    return [name for name in exports("jaxkin/design/__init__.py") if name not in listed]
+
+
+def exports(path: str, package: str = "jaxkin") -> list[str]:
+    """Names that a module of the repository imports from those of a package, for its users."""
+    imports = [node for node in module_body(path) if isinstance(node, ast.ImportFrom)]
+    imports = [node for node in imports if f"{node.module}.".startswith(f"{package}.")]
+    return [alias.asname or alias.name for node in imports for alias in node.names]
 
 
 def joints_by_hand() -> list[str]:

@@ -3,6 +3,7 @@
 | what | modules |
 |---|---|
 | the picture of a motion | `storyboard`, on a `sheet`; drawn by `illustration`, hidden surfaces by `raster` |
+| the chart of a motion | `coordinates_plot` |
 | the page of a motion | `page` (`page.html`, `page.js`) |
 | what both show of a motion | `scene`: `camera` (the view), `traces` (paths), `lost_marks`, `labels` |
 | pictures of an assembly | `inspection`, `gallery` (each contact alone); `glass`, `regions`, `callouts` |
