@@ -11,12 +11,15 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import TypeVar
 
 import cadquery as cq
 import numpy as np
 
 import jaxkin as jk
 from jaxkin.contacts.boxes import overlapping
+
+T = TypeVar("T")
 
 LATTICES = ((3, 3), (4, 7), (9, 11), (13, 23))
 """Rows and columns of plates: 10, 29, 100 and 300 parts with the base."""
@@ -48,7 +51,7 @@ def lattice(rows: int, columns: int, path: Path) -> None:
     assembly.export(str(path))
 
 
-def seconds(call: Callable[[], object]) -> tuple[object, float]:
+def seconds(call: Callable[[], T]) -> tuple[T, float]:
     start = time.perf_counter()
     result = call()
     return result, time.perf_counter() - start

@@ -19,7 +19,7 @@ from jax import lax
 from jaxkin.solve.continuation import branch
 from jaxkin.solve.correctors import levenberg_marquardt, newton
 from jaxkin.solve.execution import compiler, known_numbers, programs
-from jaxkin.solve.range import polish
+from jaxkin.solve.range import damped_poses, polish
 
 FAST_COMPILATION = {"xla_backend_optimization_level": 0, "xla_llvm_disable_expensive_passes": True}
 
@@ -94,7 +94,7 @@ def counted() -> Iterator[Count]:
         (levenberg_marquardt, "lax", _with(corrected)),
         (newton, "lax", _with(improved)),
         (branch, "lax", _with(followed)),
-        (polish, "levenberg_marquardt", told(polish.levenberg_marquardt)),
+        (damped_poses, "levenberg_marquardt", told(damped_poses.levenberg_marquardt)),
         (polish, "newton", told(polish.newton)),
         (compiler, "COMPILER_OPTIONS", compiler.COMPILER_OPTIONS | FAST_COMPILATION),
     ]

@@ -89,7 +89,10 @@ def gradient_over(poses: int) -> None:
     pins = [mechanism.joints[name].frames_1[0][:2, 3] for name in "BC"]
     unit = (pins[1] - pins[0]) / 120.0
     local = jnp.array(
-        [unit @ (POINT[:2] - pins[0]), unit[0] * (POINT[1] - pins[0][1]) - unit[1] * (POINT[0] - pins[0][0])]
+        [
+            unit @ (jnp.asarray(POINT[:2]) - pins[0]),
+            unit[0] * (POINT[1] - pins[0][1]) - unit[1] * (POINT[0] - pins[0][0]),
+        ]
     )
     wanted = by_hand(jnp.array(NOW), start + inputs, local) + jnp.array([1.0, 2.0])
 

@@ -86,7 +86,7 @@ def measure(path: str, poses: int) -> None:
     """Do all the work on the device of this process, and write what was found to a file."""
     kept: dict[str, np.ndarray] = {}
     times = [of_sweep(name, poses, kept) for name in (*SWEEPS, BEYOND)] + of_derivatives(poses)
-    np.savez(path, times=times, device=str(jax.devices()[0].device_kind), **kept)
+    np.savez(path, times=times, device=str(jax.devices()[0].device_kind), **kept)  # pyright: ignore[reportArgumentType]
 
 
 def main(poses: int = POSES) -> None:

@@ -15,6 +15,7 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
+from jaxkin.geometry.surfaces import Cylinder, Sphere
 from jaxkin.io.mesh import read_mesh
 
 TESTS = Path(__file__).parents[1] / "tests"
@@ -39,7 +40,7 @@ def main() -> None:
                     file = write_stl(Path(folder) / "solid.stl", solid.triangles + away * DIRECTION)
                     faces = read_mesh(file)[0][0].faces
                     kinds, radii = SOLIDS[solid.name]
-                    found = sorted(face.surface.radius for face in faces if hasattr(face.surface, "radius"))
+                    found = sorted(face.surface.radius for face in faces if isinstance(face.surface, Cylinder | Sphere))
                     if Counter(face.surface.kind for face in faces) == kinds:
                         exact += 1
                         if radii and len(found) == len(radii):

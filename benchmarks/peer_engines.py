@@ -78,14 +78,16 @@ def pylinkage(problem: Problem, u: Array) -> tuple[Run, Callable[[], Array]]:
     return run, answer
 
 
-def _hinge_poses(problem: Problem) -> Array:
+def _hinges(problem: Problem) -> tuple[Array, Callable[[Array, Array], Array]]:
+    """Poses of the hinges, and what makes unknowns of their angles."""
     if problem.from_hinges is None:
         raise Missing("not written down for it here")
-    return np.stack([np.asarray(problem.mechanism().joints[name].frames_1[0]) for name in "ABCD"])
+    poses = np.stack([np.asarray(problem.mechanism().joints[name].frames_1[0]) for name in "ABCD"])
+    return poses, problem.from_hinges
 
 
 def pinocchio(problem: Problem, u: Array) -> tuple[Run, Callable[[], Array]]:
-    poses = _hinge_poses(problem)
+    poses, from_hinges = _hinges(problem)
     _needs("pinocchio", "pin")
     import pinocchio as pin
 
@@ -112,11 +114,11 @@ def pinocchio(problem: Problem, u: Array) -> tuple[Run, Callable[[], Array]]:
             found.append(q[1:].copy())
         return np.array(found)
 
-    return solve, lambda: problem.from_hinges(solve(), u)
+    return solve, lambda: from_hinges(solve(), u)
 
 
 def pinocchio_cpp(problem: Problem, u: Array) -> tuple[Run, Callable[[], Array]]:
-    poses = _hinge_poses(problem)
+    poses, from_hinges = _hinges(problem)
     _needs("pinocchio", "pin")
     import cmeel  # where the wheels of pin put their headers
 
@@ -130,7 +132,7 @@ def pinocchio_cpp(problem: Problem, u: Array) -> tuple[Run, Callable[[], Array]]
         return float(solve()[-1])  # the seconds that it took, without the start of the program
 
     run.tells_time = True
-    return run, lambda: problem.from_hinges(solve()[:-1].reshape(-1, 3), u)
+    return run, lambda: from_hinges(solve()[:-1].reshape(-1, 3), u)
 
 
 def _compiled(prefix: Path) -> Path:
@@ -160,7 +162,7 @@ _compiled.program = None
 
 def mujoco(problem: Problem, u: Array) -> tuple[Run, Callable[[], Array]]:
     """Its own constraints and Jacobian, brought to zero by Newton steps: its soft constraints do not close."""
-    poses = _hinge_poses(problem)
+    poses, from_hinges = _hinges(problem)
     _needs("mujoco")
     import mujoco as mj
 
@@ -193,7 +195,7 @@ def mujoco(problem: Problem, u: Array) -> tuple[Run, Callable[[], Array]]:
         return np.array(found)
 
     def answer() -> Array:
-        found = problem.from_hinges(solve(), u)
+        found = from_hinges(solve(), u)
         found[:, 2:] = problem.truth(u)[:, 2:]  # the angle of the hinge that its constraint stands for is not told
         return found
 

@@ -35,16 +35,16 @@ def ours(problem: Problem, u: Array, method: str | None = None) -> tuple[Run, Ca
 
 
 def closed(problem: Problem, u: Array) -> tuple[Run, None]:
-    if problem.closed is None:
+    if (formula := problem.closed) is None:
         raise Missing("there is none")
     angles = jnp.asarray(u[:, 0])
-    return lambda: problem.closed(angles), None
+    return lambda: formula(angles), None
 
 
 def closed_numpy(problem: Problem, u: Array) -> tuple[Run, None]:
-    if problem.closed_numpy is None:
+    if (formula := problem.closed_numpy) is None:
         raise Missing("there is none")
-    return lambda: problem.closed_numpy(u[:, 0]), None
+    return lambda: formula(u[:, 0]), None
 
 
 def starts(problem: Problem, u: Array) -> Array:
@@ -140,7 +140,8 @@ def rows(problem: Problem) -> Iterator[str]:
 
 def _told(run: Run) -> Timing:
     run()
-    return Timing(*np.quantile([run() for _ in range(7)], [0.5, 0.25, 0.75]).tolist())
+    seconds = np.array([run() for _ in range(7)], float)
+    return Timing(*np.quantile(seconds, [0.5, 0.25, 0.75]).tolist())
 
 
 def _error(problem: Problem, found: Array, truth: Array) -> str:

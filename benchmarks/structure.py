@@ -34,7 +34,10 @@ def ring(parts: int, seed: int = 0) -> Description:
     """A ring with half as many chords, each between two parts at random."""
     rng = random.Random(seed)
     pairs = [(part, (part + 1) % parts) for part in range(parts)]
-    return named(parts, pairs + [tuple(rng.sample(range(parts), 2)) for _ in range(parts // 2)])
+    for _ in range(parts // 2):
+        first, second = rng.sample(range(parts), 2)
+        pairs.append((first, second))
+    return named(parts, pairs)
 
 
 def named(parts: int, pairs: list[tuple[int, int]]) -> Description:
