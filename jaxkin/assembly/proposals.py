@@ -7,10 +7,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from jaxkin.assembly.wheels import wheels_last, wheels_of
-from jaxkin.geometry.part import Part
+from jaxkin.geometry.part import Part, heaviest
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.mobility.open_loops import opening
 from jaxkin.topology.bodies import body_of_parts
@@ -149,8 +147,8 @@ def _with_ends(mechanism: Mechanism, solids: Mapping[str, Part]) -> list[list[st
     turning = {owner[part] for part in wheels_of(mechanism).values()}
     ends = [body for body, others in around.items() if len(others) == 1 and body != owner[mechanism.fixed[0]]]
     ends = [body for body in ends if body not in turning]
-    parts = [_heaviest(mechanism.bodies[body], solids) for body in ends]
-    base = _heaviest(mechanism.fixed, solids)
+    parts = [heaviest(mechanism.bodies[body], solids) for body in ends]
+    base = heaviest(mechanism.fixed, solids)
     alone = [parts] if len(parts) > 1 else []
     return [[base, *parts], *alone] if parts and len(around) > 2 else []
 
@@ -159,26 +157,16 @@ def _likely(mechanism: Mechanism, solids: Mapping[str, Part]) -> list[str]:
     """Find the heaviest part of each body, those of large and well connected bodies first."""
     owner = body_of_parts(mechanism.bodies)
     joined = Counter(owner[part] for joint in mechanism.all_joints if joint.freedoms for part in joint.parts)
-    size = {body: max(_extent(solids[part]) for part in parts) for body, parts in mechanism.bodies.items()}
+    size = {body: max(solids[part].extent for part in parts) for body, parts in mechanism.bodies.items()}
     order = sorted(size, key=lambda body: joined[body] * size[body], reverse=True)
-    return [_heaviest(mechanism.bodies[body], solids) for body in order]
-
-
-def _heaviest(parts: Sequence[str], solids: Mapping[str, Part]) -> str:
-    """Find the heaviest part of a body: the longest may be a screw."""
-    return max(parts, key=lambda part: (abs(solids[part].volume), _extent(solids[part])))
+    return [heaviest(mechanism.bodies[body], solids) for body in order]
 
 
 def _size(part: Part) -> tuple[float, float]:
     """Measure how large a part is: long, and not thin as a rod or a long screw, which fastens nothing while it is
     fixed; shells without a volume come by their length."""
-    extent = _extent(part)
+    extent = part.extent
     return extent * abs(part.volume) ** (1 / 3), extent
-
-
-def _extent(part: Part) -> float:
-    """Measure the diagonal of the box of a part."""
-    return float(np.linalg.norm(part.box[1] - part.box[0]))
 
 
 def _tried(mechanism: Mechanism, choice: Sequence[str], drive: Sequence[str] | None) -> Proposal:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -99,11 +100,21 @@ class Part:
         except QhullError:
             return corners
 
+    @property
+    def extent(self) -> float:
+        """Diagonal of the bounding box."""
+        return float(np.linalg.norm(self.box[1] - self.box[0]))
+
     @cached_property
     def volume(self) -> float:
         """Volume inside of the triangles, in the cube of the unit: one sixth of the sum of their triple products."""
         corners = self.triangles - self.box.mean(axis=0)
         return float(abs(np.einsum("ti,ti->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))) / 6)
+
+
+def heaviest(names: Sequence[str], solids: Mapping[str, Part]) -> str:
+    """Find the heaviest of some parts, the first of equal ones: the longest may be a screw."""
+    return max(names, key=lambda name: (solids[name].volume, solids[name].extent))
 
 
 def box_corners(box: Float[np.ndarray, "2 3"]) -> Float[np.ndarray, "8 3"]:

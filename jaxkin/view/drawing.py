@@ -8,7 +8,7 @@ from itertools import cycle
 from math import dist
 from typing import TYPE_CHECKING
 
-from jaxkin.geometry.part import Part
+from jaxkin.geometry.part import Part, heaviest
 from jaxkin.view.sticks import stick_parts
 
 if TYPE_CHECKING:
@@ -104,6 +104,9 @@ def body_colors(bodies: Mapping[str, Sequence[str]], fixed: Collection[str]) -> 
     return found
 
 
-def body_label(name: str, parts: Sequence[str]) -> str:
-    """Tell what a legend calls a body: its first part, and how many more it has."""
+def body_label(parts: Sequence[str], solids: Iterable[Part]) -> str:
+    """Tell what a legend calls a body: its heaviest part, since its first may be a pin, and how many more it has."""
+    shapes = {part.name: part for part in solids}
+    drawn = [part for part in parts if part in shapes] if len(parts) > 1 else []
+    name = heaviest(drawn, shapes) if drawn else parts[0]
     return name if len(parts) == 1 else f"{name} and {len(parts) - 1} more"

@@ -25,7 +25,8 @@ if TYPE_CHECKING:
     from matplotlib.artist import Artist
 
     from jaxkin.assembly.assembly import Assembly
-    from jaxkin.mechanism.mechanism import Mechanism
+    from jaxkin.geometry.part import Part
+from jaxkin.mechanism.mechanism import Mechanism
 
 
 def draw_inspection(
@@ -52,7 +53,7 @@ def draw_inspection(
     colors = {part.name: part.color or FIXED_COLOR for part in told_apart(parts, bodies, fixed)}
     canvas = canvas_of(solids, fixed, width)
     regions = _regions(assembly, contacts)
-    entries = _legend(contacts, colors, bodies, mechanism)
+    entries = _legend(contacts, colors, bodies, mechanism, solids)
     sheet = make_sheet(canvas, 1, 1, entries)
     left, top = sheet.place(0)
     areas = [region.triangles for region, contact in regions if contact.region == "surface"]
@@ -103,6 +104,7 @@ def _legend(
     colors: dict[str, Color],
     bodies: Mapping[str, Sequence[str]],
     mechanism: Mechanism | None,
+    solids: Sequence[Part],
 ) -> list[tuple[Artist, str]]:
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
@@ -111,7 +113,7 @@ def _legend(
     for name, parts in list(bodies.items())[:DISTINCT]:
         fixed = " (fixed)" if mechanism is not None and name in mechanism.fixed else ""
         patch = Patch(facecolor=pale(colors[name]), edgecolor=INK, linewidth=0.8)
-        entries.append((patch, clip(body_label(name, parts), 40) + fixed))
+        entries.append((patch, clip(body_label(parts, solids), 40) + fixed))
     if (left := len(bodies) - DISTINCT) > 0:
         what = "parts" if mechanism is None else "bodies"
         entries.append((Patch(facecolor="white", edgecolor=INK, linewidth=0.8), f"{left} more {what}"))

@@ -92,7 +92,7 @@ def _scene(found: Mechanism | Assembly, source: str) -> dict:
         "pitch": PITCH,
         "bodies": [
             {
-                "name": body_label(name, parts),
+                "name": body_label(parts, solids),
                 "fixed": parts[0] in fixed,
                 "color": rounded(colors[name]),
                 "poses": "",

@@ -91,7 +91,7 @@ def _body(name: str, scene: Scene, shown: np.ndarray, centre: np.ndarray, scale:
     poses[..., 3] += poses[..., :3] @ centre - centre
     poses[..., 3] /= scale
     return {
-        "name": body_label(name, scene.bodies[name]),
+        "name": body_label(scene.bodies[name], scene.parts),
         "fixed": name in scene.fixed,
         "color": rounded(color),
         "poses": "" if name in scene.fixed else encoded(poses),

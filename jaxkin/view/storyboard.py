@@ -178,12 +178,12 @@ def _legend(scene: Scene) -> list[tuple[Artist, str]]:
     entries: list[tuple[Artist, str]] = []
     if still := [part.name for part in scene.parts if part.name in scene.fixed]:
         patch = Patch(facecolor=FIXED, edgecolor=FAINT_INK, hatch="/////", hatch_linewidth=0.4)
-        entries.append((patch, f"{clip(', '.join(still), MAX_LEGEND_LETTERS)} (fixed)"))
+        entries.append((patch, f"{clip(body_label(still, scene.parts), MAX_LEGEND_LETTERS)} (fixed)"))
     colors = {part.name: part.color or GREY for part in scene.parts}
     moving = {name: parts for name, parts in scene.bodies.items() if name not in scene.fixed}
     for name, parts in list(moving.items())[:MAX_LEGEND_BODIES]:
         patch = Patch(facecolor=colors[name], edgecolor=INK, linewidth=0.8)
-        entries.append((patch, clip(body_label(name, parts), MAX_LEGEND_LETTERS)))
+        entries.append((patch, clip(body_label(parts, scene.parts), MAX_LEGEND_LETTERS)))
     if len(moving) > MAX_LEGEND_BODIES:
         entries.append(
             (Patch(facecolor="white", edgecolor=INK, linewidth=0.8), f"{len(moving) - MAX_LEGEND_BODIES} more bodies")

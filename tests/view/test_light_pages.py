@@ -53,8 +53,18 @@ def swing():
 def test_a_body_has_one_colour_one_row_and_one_displacement(swing, tmp_path):
     parts = {part.name: part.color for part in drawn_parts(swing)}
     assert parts["arm"] == parts["hand"] != parts["base"]
-    assert [body_label(*body) for body in swing.bodies.items()] == ["base", "arm and 1 more"]
+    assert [body_label(parts, swing.solids) for parts in swing.bodies.values()] == ["base", "arm and 1 more"]
     page(swing.sweep({"A": np.linspace(0.0, 1.0, 5)}), tmp_path / "page.html")
     text = (tmp_path / "page.html").read_text()
     assert re.findall(r'"body":(\d)', text) == ["0", "1", "1"]
     assert len(re.findall(r'"poses":"[^"]', text)) == 1
+
+
+def test_a_body_is_called_by_its_heaviest_part():
+    """The first of a table and its pins may be a pin; a long thin screw is no name for what it holds."""
+    box = trimesh.creation.box((1.0, 1.0, 1.0)).triangles
+    sizes = {"pin": (0.1, 0.1, 0.5), "table": (1.0, 1.0, 0.2), "screw": (0.05, 0.05, 4.0)}
+    parts = [Part(name, (), box * np.array(size)) for name, size in sizes.items()]
+    assert body_label(("pin", "table", "screw"), parts) == "table and 2 more"
+    assert body_label(("pin", "not drawn"), parts) == "pin and 1 more"
+    assert body_label(("not drawn",), parts) == "not drawn"
