@@ -11,7 +11,7 @@ import numpy as np
 from jaxkin.geometry.part import box_corners
 from jaxkin.solve.status import Status
 from jaxkin.view.drawing import FIXED_COLOR, body_label
-from jaxkin.view.labels import headline, inputs, named
+from jaxkin.view.labels import headline, inputs, title
 from jaxkin.view.lost_marks import told
 from jaxkin.view.scene import Scene, make_scene
 from jaxkin.view.viewer import encoded, part_entries, rounded, write_page
@@ -56,7 +56,7 @@ def _content(motion: Motion, scene: Scene) -> dict:
     return {
         "title": first,
         "subtitle": second,
-        "labels": [named(entries, int(pose)) for pose in shown],
+        "labels": [title(entries, int(pose)) for pose in shown],
         "problems": [_problem(Status(int(status[pose]))) for pose in shown],
         "lost": [told(scene.lost, int(pose)) for pose in shown],
         "cyclic": scene.cyclic,
