@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Bool, Float
 
 from jaxkin.assembly.inference.stop_faces import ACROSS
-from jaxkin.contacts.boxes import boxes_of
 from jaxkin.contacts.contact import Contact
-from jaxkin.contacts.overlap import flat, overlap
+from jaxkin.contacts.overlap import Flat, flat, overlap
 from jaxkin.geometry.part import Face, Part
-from jaxkin.geometry.pose import Vector, perpendicular
+from jaxkin.geometry.pose import Vector, unit
 from jaxkin.geometry.surfaces import Plane
+from jaxkin.geometry.triangles import double_areas
 
 MAX_SIDE_PLAY = 0.06
 """Play of a part between two faces, over its width there, in all: drawers that people drew have half a
@@ -140,20 +141,15 @@ def _opposed(
         opposite = np.flatnonzero(_are_opposite(plane.normal[None], against)[0]).tolist()
         if not opposite:
             continue
-        x = perpendicular(plane.normal)
-        y = np.cross(plane.normal, x)
-        own = flat(a.triangles, plane.point, x, y)
-        box = boxes_of(own.reshape(1, -1, 2))[0]
+        x = _along_a_side(a)
+        across = plane.point, x, np.cross(plane.normal, x)
+        own = _Outline.of(flat(a.triangles, *across))
         for other, b in (others[k] for k in opposite):
             gap = float((other.point - plane.point) @ plane.normal)
-            if gap < -TOUCHING * np.max(box[1] - box[0]):
+            if gap < -TOUCHING * own.longest:
                 continue
-            against_it = flat(b.triangles, plane.point, x, y)
-            beside = boxes_of(against_it.reshape(1, -1, 2))[0]
-            if np.any(box[1] <= beside[0]) or np.any(beside[1] <= box[0]):
-                continue
-            shared = overlap(own, against_it, 0.0)
-            if shared is not None and shared.area > NARROW * shared.extent**2 and gap >= -TOUCHING * shared.extent:
+            width = own.shared_width(_Outline.of(flat(b.triangles, *across)))
+            if width is not None and gap >= -TOUCHING * width:
                 found.append((plane, a, b, max(gap, 0.0)))
     return found
 
@@ -163,3 +159,48 @@ def _are_opposite(
 ) -> Bool[np.ndarray, "ones others"]:
     """Tell which unit normals are opposite, to `ACROSS` radians: |a + b|^2 = 2 + 2 a.b."""
     return ones @ others.T <= ACROSS**2 / 2 - 1
+
+
+def _along_a_side(face: Face) -> Vector:
+    """Choose the direction of the shortest side of the largest triangle of a plane face: along a side of a rectangle,
+    however that is turned."""
+    triangles = face.triangles
+    corners = triangles[np.argmax(np.sum(double_areas(triangles) ** 2, axis=1))]
+    sides = np.roll(corners, -1, axis=0) - corners
+    return unit(sides[np.argmin(np.sum(sides**2, axis=1))])
+
+
+class _Outline(NamedTuple):
+    """A plane face in coordinates of a plane."""
+
+    triangles: Flat
+    low: Float[np.ndarray, "2"]
+    high: Float[np.ndarray, "2"]
+    is_box: bool
+    """Whether the face is a rectangle along the axes, as most are."""
+
+    @staticmethod
+    def of(triangles: Flat) -> _Outline:
+        """Measure a face."""
+        corners = triangles.reshape(-1, 2)
+        low, high = corners.min(axis=0), corners.max(axis=0)
+        sides = triangles[:, 1:] - triangles[:, :1]
+        area = np.abs(sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0]).sum() / 2
+        return _Outline(triangles, low, high, bool(area >= (1 - NARROW) * np.prod(high - low)))
+
+    @property
+    def longest(self) -> float:
+        """The longer side of its box."""
+        return float(np.max(self.high - self.low))
+
+    def shared_width(self, other: _Outline) -> float | None:
+        """Measure the diagonal of the box of what two faces share; None where that is nothing but an edge."""
+        low, high = np.maximum(self.low, other.low), np.minimum(self.high, other.high)
+        if np.any(high <= low):
+            return None
+        if self.is_box and other.is_box:
+            area, width = float(np.prod(high - low)), float(np.linalg.norm(high - low))
+        else:
+            shared = overlap(self.triangles, other.triangles, 0.0)
+            area, width = (0.0, 0.0) if shared is None else (shared.area, shared.extent)
+        return width if area > NARROW * width**2 else None
