@@ -186,7 +186,8 @@ def _nearest_jvp(system: LoopSystem, primals, tangents):
     """Differentiate `W e = J^T lambda, r = 0`.
 
     With `v` the displacement of the state it is `v = b - (J W^-1)^+ (J W^-1 b + dr)`, `b = v + de - d(J W^-1)^T lambda`
-    where `de` and `dJ` depend on `v` again: a linear equation that is iterated as the states were.
+    where `de` and `dJ` depend on `v` again: a linear equation that is iterated as the states were. Driven columns move
+    as they are given, which moves the loops as a change of the geometry does.
     """
     geometry, begun, weights, found, settled = primals
     state = _attach_derivative(system, geometry, begun, weights, found, settled)
@@ -208,8 +209,8 @@ def _nearest_jvp(system: LoopSystem, primals, tangents):
         return there.residual, _offset(system, begun, at, weights) - jnp.sum(rows * multipliers[:, None], axis=0)
 
     _, linear = jax.linearize(parts, geometry, begun, weights, found)
-    still = jax.tree.map(jnp.zeros_like, found)
-    d_residual, fixed = linear(d_geometry, d_begun, d_weights, still)
+    held = _of_driven(system, d_begun)
+    d_residual, fixed = linear(d_geometry, d_begun, d_weights, held)
     zeros = jax.tree.map(jnp.zeros_like, (geometry, begun, weights))
 
     def onward(v: Array, _: None) -> tuple[Array, None]:
@@ -221,10 +222,14 @@ def _nearest_jvp(system: LoopSystem, primals, tangents):
 
     v, _ = lax.scan(onward, jnp.zeros_like(off), None, length=MAX_NEWTON_STEPS)
     moves = rate(system, found, v / weights[:, None])
-    # what is driven moves as it is given
-    held = jax.tree.map(jnp.zeros_like, d_begun)._replace(x=jnp.where(is_driven(system), d_begun.x, 0.0))
     d_state = jax.tree.map(jnp.add, moves, held)
     return state, jax.tree.map(lambda d: jnp.where(settled, d, 0.0), d_state)
+
+
+def _of_driven(system: LoopSystem, d_begun: State) -> State:
+    """Select of the tangent of a state that of its driven columns and balls; zero elsewhere."""
+    balls = np.array([system.balls[ball][0] in system.driven for ball in system.turned_balls], bool)
+    return State(jnp.where(is_driven(system), d_begun.x, 0.0), jnp.where(balls[:, None, None], d_begun.turns, 0.0))
 
 
 def _multipliers(jacobian: Array, off: Array, floor: float) -> Array:
