@@ -17,6 +17,7 @@ from jaxkin._files import quoted, save_table
 from jaxkin._names import closest
 from jaxkin._traced import traced
 from jaxkin.effects.tolerance import Tolerance, named
+from jaxkin.geometry.root import root
 
 RULES = ("worst case", "root sum of squares")
 SIZE_OF_NONE = 1e-13
@@ -60,7 +61,7 @@ class Tolerances:
         rows, first = [], 0
         for size in self.dimensions:
             part = self.slopes[first : first + size]
-            rows.append(part[0] if size == 1 else xp.sqrt(xp.sum(part**2)))
+            rows.append(part[0] if size == 1 else _root(xp.sum(part**2)))
             first += size
         return xp.stack(rows)
 
@@ -84,12 +85,12 @@ class Tolerances:
     @property
     def root_sum_of_squares(self) -> float | Array:
         """Deviation of the measure where deviations partly cancel: sqrt(sum (s_i t_i)^2)."""
-        return ((self.sensitivities * self.limits) ** 2).sum() ** 0.5
+        return _root(((self.sensitivities * self.limits) ** 2).sum())
 
     @property
     def standard_deviation(self) -> float | Array:
         """Standard deviation of the measure in first order: sqrt(sum (s_i sigma_i)^2)."""
-        return ((self.sensitivities * self.deviations) ** 2).sum() ** 0.5
+        return _root(((self.sensitivities * self.deviations) ** 2).sum())
 
     @property
     def contributions(self) -> Float[np.ndarray | Array, " rows"]:
@@ -234,6 +235,11 @@ class AllowedTolerances:
             equal = f"± {self.equal[key]:.4g}" if np.isfinite(self.equal[key]) else "any"
             lines.append(f"  {name:<{width}}  {f'± {self.scaled[key]:.4g}':>10}  {equal:>12}")
         return "\n".join(lines)
+
+
+def _root(square: Any) -> Any:
+    """Compute a square root: of a traced zero with a derivative of zero, since that of `jnp.sqrt` is no number."""
+    return root(square) if traced(square) else np.sqrt(square)
 
 
 def _interval(pair: tuple[float, float]) -> str:

@@ -1,12 +1,13 @@
 """Tolerances where the first order of a measure says nothing."""
 
+import jax
 import numpy as np
 import pytest
 
 import jaxkin as jk
 from jaxkin.examples.paths import fourbar
 
-CRANK, LENGTHS = ("crank", "A", "B"), (100.0, 40.0, 120.0, 80.0)
+CRANK, COUPLER, LENGTHS = ("crank", "A", "B"), ("coupler", "B", "C"), (100.0, 40.0, 120.0, 80.0)
 
 
 def rocker(pose):
@@ -27,3 +28,24 @@ def test_at_an_extremum_the_extremes_show_the_second_order():
         assert square.worst_case < 1e-15
         np.testing.assert_allclose(sorted(square.extremes), sorted(np.square(angle.extremes)), rtol=1e-9)
         assert min(square.extremes) > 0
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("spread", ["root_sum_of_squares", "standard_deviation"])
+def test_what_has_no_influence_spoils_no_derivative_of_a_spread(spread):
+    """An arm beside the four-bar: the play of its pin counts nothing, and where nothing counts derivatives are zero."""
+    arm = jk.revolute("E", "ground", "arm", point=(0.0, 50.0, 0.0), axis=(0.0, 0.0, 1.0))
+    mechanism = jk.Mechanism.build(fixed=["ground"], joints=[*fourbar(*LENGTHS).all_joints, arm])
+
+    def slope(measure, clearances):
+        def found(crank):
+            made, drive = mechanism.with_lengths({CRANK: crank}), {"A": 0.2, "E": 0.0}
+            stated = jk.tolerances(made, {COUPLER: 0.05}, measure, drive=drive, clearances=clearances, samples=0)
+            return getattr(stated, spread)
+
+        return float(jax.grad(found)(LENGTHS[1]))
+
+    alone = slope(rocker, {})
+    assert abs(alone) > 1e-6
+    np.testing.assert_allclose(slope(rocker, {"E": 0.02}), alone, rtol=1e-12)
+    assert slope(lambda pose: pose.coordinates["E"][0], {"E": 0.02}) == 0.0
