@@ -29,7 +29,7 @@ _MAY_BE_ONE_BODY = Doubt(JointKind.FIXED, "it fits exactly where others have pla
 
 def with_doubts(mechanism: Mechanism, bearings: Collection[str]) -> Mechanism:
     """Say of joints that fit exactly outside of loops, in a drawing where others have play, that they may be none."""
-    if not any(_has_play(joint.evidence) for joint in mechanism.all_joints):
+    if not any_has_play(mechanism):
         return mechanism
     outside = {*outside_loops(mechanism.linkage)}
     joints = tuple(
@@ -41,6 +41,11 @@ def with_doubts(mechanism: Mechanism, bearings: Collection[str]) -> Mechanism:
     if joints == mechanism.all_joints:
         return mechanism
     return replace(mechanism, linkage=replace(mechanism.linkage, joints=joints))
+
+
+def any_has_play(mechanism: Mechanism) -> bool:
+    """Tell whether some joint of a drawing has play: its author draws play where parts move."""
+    return any(_has_play(joint.evidence) for joint in mechanism.all_joints)
 
 
 def _may_be_none(mechanism: Mechanism, joint: Joint, bearings: Collection[str]) -> bool:

@@ -17,6 +17,7 @@ from jaxkin.assembly.inference.springs import DrawnSpring, springs
 from jaxkin.assembly.lids import under_lids
 from jaxkin.assembly.resting import leaves_all_moving, resting
 from jaxkin.assembly.seats import seats_of, useful_freedoms
+from jaxkin.assembly.tight_fits import tight_fits
 from jaxkin.assembly.to_mechanism import MechanismOptions, detection_of, make_mechanism
 from jaxkin.assembly.undrawn_shafts import told_shafts
 from jaxkin.contacts.contact import Contact, Contacts
@@ -31,8 +32,8 @@ if TYPE_CHECKING:
 
 _ROUNDS = 3
 """Times that seats are looked for: what is one body by some may be seated on others."""
-_LYING = 6
-"""Bodies that lie on others that are held there one by one, where not all can be held together."""
+_ONE_BY_ONE = 6
+"""Bodies that are held to others one by one, where not all can be held together."""
 
 
 def with_inferences(assembly: Assembly, contacts: Sequence[Contact], options: MechanismOptions) -> Mechanism:
@@ -67,6 +68,7 @@ def _with_springs(
     seats, trial = _hold_all_but_lids(trials, seats, trial)
     seats, trial = _hold_seated(trials, seats, trial)
     seats, trial = _hold_lying(trials, seats, trial)
+    trial = _hold_tight(trials, trial)
     check_ignored(contacts, options.ignore, trials.heeded)
     found = with_doubts(_movable(trials, seats, trial), trials.bearings)
     taken_back = [
@@ -150,6 +152,13 @@ class _Trials:
         plain = make_mechanism(self.assembly, self.contacts, options, found)
         return _Trial(*self._stopped(plain, found, implied.stops), _not_idle(plain))
 
+    def with_more(self, trial: _Trial, held: Sequence[Inference]) -> _Trial:
+        """Make the mechanism with all that is inferred already, and some parts held beside it: nothing else is inferred
+        anew, as it would be of parts that `make` takes for one body from the beginning."""
+        found = _without_inner(self.assembly, self.options, [*trial.inferences, *held])
+        made = make_mechanism(self.assembly, self.contacts, self.options, found)
+        return _Trial(made, found, trial.before_stops)
+
     def _stopped(
         self, mechanism: Mechanism, found: list[Inference], levels: Sequence[Sequence[Inference]]
     ) -> tuple[Mechanism, list[Inference]]:
@@ -216,9 +225,26 @@ def _hold_lying(trials: _Trials, seats: list[Inference], trial: _Trial) -> _Held
         if held[0] in seats:
             break  # all are held together
         other = trials.make([*seats, *held])
-        if useful_freedoms(other.mechanism) and leaves_all_moving(trial.mechanism, other.mechanism, held):
+        if _moves_as_before(trial, other, held):
             seats, trial = [*seats, *held], other
     return seats, trial
+
+
+def _hold_tight(trials: _Trials, trial: _Trial) -> _Trial:
+    """Hold parts that fit a pin exactly, and that no face keeps there, where all else moves as before."""
+    before = trial.mechanism
+    for held in _choices(tight_fits(before, trials.bearings)) if useful_freedoms(before) else ():
+        if held[0] in trial.inferences:
+            break  # all are held together
+        other = trials.with_more(trial, held)
+        if _moves_as_before(trial, other, held):
+            trial = other
+    return trial
+
+
+def _moves_as_before(trial: _Trial, other: _Trial, held: Sequence[Inference]) -> bool:
+    """Tell whether all that moved still does in another mechanism, but for what is held there, and something does."""
+    return bool(useful_freedoms(other.mechanism)) and leaves_all_moving(trial.mechanism, other.mechanism, held)
 
 
 def _movable(trials: _Trials, seats: Sequence[Inference], trial: _Trial) -> Mechanism:
@@ -241,9 +267,9 @@ def _movable(trials: _Trials, seats: Sequence[Inference], trial: _Trial) -> Mech
     return counted
 
 
-def _choices(lying: Sequence[Inference]) -> list[Sequence[Inference]]:
-    """List what is tried of bodies that lie on others: all together, then one after another, of a few."""
-    return [lying, *([each] for each in lying[:_LYING])] if len(lying) > 1 else [lying] if lying else []
+def _choices(found: Sequence[Inference]) -> list[Sequence[Inference]]:
+    """List what is tried of bodies that may be held: all together, then one after another, of a few."""
+    return [found, *([each] for each in found[:_ONE_BY_ONE])] if len(found) > 1 else [found] if found else []
 
 
 def _not_idle(mechanism: Mechanism) -> int:

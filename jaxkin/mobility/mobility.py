@@ -109,7 +109,7 @@ def mobility(linkage: Linkage, unit: str = "") -> Mobility:
 
 def outside_loops(linkage: Linkage) -> list[str]:
     """Name the coordinates of joints outside of loops, "joint.coordinate", without those of parts that only spin."""
-    spinning, in_loops = {part.name for part in linkage.spinning}, _in_loops(linkage)
+    spinning, in_loops = {part.name for part in linkage.spinning}, joints_in_loops(linkage)
     return [
         name
         for index, joint in enumerate(linkage.joints)
@@ -120,7 +120,7 @@ def outside_loops(linkage: Linkage) -> list[str]:
 
 def moving_coordinates(linkage: Linkage) -> set[str]:
     """Name the coordinates, "joint.coordinate", in which more moves than idle parts."""
-    in_loops, found = _in_loops(linkage), set[str]()
+    in_loops, found = joints_in_loops(linkage), set[str]()
     for each in loop_freedoms(linkage):
         found |= {*names(linkage, each, moving_columns(each, each.motions))}
     outside = (joint for k, joint in enumerate(linkage.joints) if k not in in_loops)
@@ -128,7 +128,8 @@ def moving_coordinates(linkage: Linkage) -> set[str]:
     return found - {*mobility(linkage).idle}
 
 
-def _in_loops(linkage: Linkage) -> set[int]:
+def joints_in_loops(linkage: Linkage) -> set[int]:
+    """Number the joints that are in loops."""
     return {joint for loop_group in linkage.structure.loop_groups for joint in loop_group.joints}
 
 
@@ -138,7 +139,7 @@ def _of_closed(linkage: Linkage) -> Mobility:
     every = loop_freedoms(linkage)
     mobile = [found for found in every if len(found.motions)]
     spins = {part.name: part.freedoms for part in linkage.spinning}
-    in_loops = _in_loops(linkage)
+    in_loops = joints_in_loops(linkage)
     outside = outside_loops(linkage)
     kinds = tuple(found.subgroup(dict(loop)) for found in every for loop in found.loop_group.loops)
     at_ends = sum(joint.freedoms for index, joint in enumerate(linkage.joints) if index not in in_loops)
