@@ -144,7 +144,7 @@ def _hinge(
     """Make a revolute joint where faces stop the slide, otherwise a cylindrical one unless contacts say that exactly.
 
     Faces across the axis that touch stop it, as they do beside a pin that fits exactly. A pin with play that is in the
-    middle of its holes, or about as long as they are, may turn only: that is made, too, to be tried.
+    middle of its holes, about as long as they are, or in a short hole, may turn only: that is made, too, to be tried.
     """
     pair, found, exact, radius = coaxial.first, coaxial.found, any(coaxial.pins), coaxial.first.other.radius
     room, near = _room(known, coaxial, touching, kept)
@@ -155,7 +155,8 @@ def _hinge(
     middles = [float(pair.other.point @ pair.one.axis)]
     if _is_last(known, known.body[pair.one.part], coaxial.owners):
         middles.append(sum(reach) / 2)  # of two bushes, where an axle with its wheels moves nothing else
-    jams = room is not None and not pair.virtual and reach[1] - reach[0] < MIN_GUIDED * radius
+    short = not pair.virtual and reach[1] - reach[0] < MIN_GUIDED * radius
+    jams = short and room is not None
     centred = not far and not _is_inside(pair, found) and _is_centred(pair, middles)
     if exact:
         if fastened and near is not None and near <= MAX_LIFT * radius:
@@ -166,6 +167,7 @@ def _hinge(
         return [joint_about(known, coaxial, Stop.SHORT, 0.0, room)]
     slides = joint_about(known, coaxial, Stop.NONE, None, room)
     stop = Stop.CENTRED if centred else Stop.NO_STROKE if _has_no_stroke(pair, reach) else None
+    stop = Stop.SHORT if stop is None and short else stop
     return [slides] if pair.virtual or far or stop is None else [slides, joint_about(known, coaxial, stop, 0.0, room)]
 
 

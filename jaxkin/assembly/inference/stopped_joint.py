@@ -51,7 +51,8 @@ def joint_about(
     doubt = None if touching else slide_doubt(stop, room, hole.radius)
     evidence = Evidence(kind, tuple(sizes), f"{text}; {_told(stop, free, room)}", doubt)
     # faces that stop a pin with play are no second reading: there is no other joint of the two bodies
-    replaces = exact or stop not in (Stop.NONE, Stop.FACES, Stop.SHORT)
+    faced = stop is Stop.FACES or (stop is Stop.SHORT and room is not None)
+    replaces = exact or not (faced or stop is Stop.NONE)
     return StoppedJoint(Inference.of(joint, evidence), stop, replaces)
 
 
@@ -59,12 +60,12 @@ def _told(stop: Stop, free: float | None, room: float | None) -> str:
     """Say what stops a slide."""
     if free is None:
         return "no face stops its slide"
+    between = "" if room is None else f" of {room:.2g} between faces"
     return {
         Stop.ONE_FACE: f"a face {free:.2g} away and the fastener stop its slide",
         Stop.CENTRED: "the pin and its holes have one middle, where it is taken to stay",
         Stop.NO_STROKE: "the pin is no longer than its hole, or little: taken to turn",
-        Stop.SHORT: f"its hole is shorter than wide and would jam on a slide of {room or 0.0:.2g} between faces: "
-        "taken to turn",
+        Stop.SHORT: f"its hole is shorter than wide and would jam on a slide{between}: taken to turn",
     }.get(stop, f"faces stop its slide, with a play of {free:.2g}")
 
 
