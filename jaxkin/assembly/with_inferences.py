@@ -15,6 +15,7 @@ from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.springs import DrawnSpring, springs
 from jaxkin.assembly.lids import under_lids
+from jaxkin.assembly.meant_to_turn import with_turning
 from jaxkin.assembly.resting import leaves_all_moving, resting
 from jaxkin.assembly.seats import seats_of, useful_freedoms
 from jaxkin.assembly.tight_fits import tight_fits
@@ -71,6 +72,7 @@ def _with_springs(
     trial = _hold_tight(trials, trial)
     check_ignored(contacts, options.ignore, trials.heeded)
     found = with_doubts(_movable(trials, seats, trial), trials.bearings)
+    found = with_turning(found, assembly._measured, trials.bearings)
     taken_back = [
         f"nothing is inferred between {one!r} and {other!r}, as was asked for"
         for one, other in options.ignored

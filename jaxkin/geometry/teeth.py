@@ -15,6 +15,9 @@ ToothSide = Literal["outer", "inner"]
 
 BINS = 4096
 """Angles at which an outline is sampled: ten on each tooth of a wheel with `MAX_TEETH`."""
+POINTS = 2
+"""Points that are taken on a segment for each angle that it passes: with one, the flank of a saw tooth, whose radius
+changes by a sixth, passed some angles without a point, and the bore was seen there."""
 MIN_TEETH, MAX_TEETH = 6, 400
 """Pinions have 6 teeth at least (with fewer, they are screws); a wheel with more than 400 is drawn as a disc."""
 PURITY = 0.75
@@ -131,9 +134,10 @@ def _farthest(
     far = np.full(BINS, -np.inf)
     if not len(x):
         return far
-    # points on the segments, as close as the bins are
+    # points on the segments, closer than the bins are: along a flank that is far from radial, equal steps are unequal
+    # angles
     turn = np.abs(np.angle((x[:, 1] + 1j * y[:, 1]) * (x[:, 0] - 1j * y[:, 0])))
-    count = np.minimum(np.ceil(turn * BINS / (2 * np.pi)).astype(int) + 1, BINS)
+    count = np.minimum(np.ceil(POINTS * turn * BINS / (2 * np.pi)).astype(int) + 1, POINTS * BINS)
     px, py = along_segments(x, y, count)
     bins = ((np.arctan2(py, px) / (2 * np.pi) + 1.0) * BINS).astype(int) % BINS
     np.maximum.at(far, bins, (1.0 if side == "outer" else -1.0) * np.hypot(px, py))

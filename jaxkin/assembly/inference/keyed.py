@@ -94,7 +94,7 @@ def seated_on_squares(known: Known, fastening: Collection[str]) -> list[Inferenc
             if touching and not known.touches_only_across(shaft, hub.name, pin.axis):
                 continue
             on = is_on_polygon(hub, known.solids[shaft], pin.point, pin.axis, MAX_SEAT_TURN)
-            if on and outer_teeth(hub, pin) is not None:
+            if on and outer_teeth(hub, pin.point, pin.axis) is not None:
                 long, seat = lengths_beside(hub, known.solids[shaft], pin.axis)
                 if seat <= MAX_SEAT * long:
                     text = (

@@ -11,6 +11,7 @@ from jaxkin.assembly.inference.fasteners import parallel
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sleeves import SAME_FIT
 from jaxkin.geometry.part import Part
+from jaxkin.geometry.pose import Vector
 from jaxkin.geometry.teeth import Teeth, find_teeth
 
 LEAST_TEETH = 8
@@ -36,7 +37,7 @@ def meshing_wheels(known: Known, fastening: Collection[str]) -> set[str]:
             continue
         pin = pairs[0].one
         for part in (part for part in known.parts if body[part.name] == body[name]):
-            wheel = outer_teeth(part, pin)
+            wheel = outer_teeth(part, pin.point, pin.axis)
             if wheel is not None and any(_meshes(known, pin, wheel, each) for each in known.measured.beside(part)):
                 result.add(name)
     return result
@@ -52,7 +53,7 @@ def _meshes(known: Known, pin: Bore, wheel: Teeth, other: Part) -> bool:
         apart = float(np.linalg.norm(offset - (offset @ pin.axis) * pin.axis))
         if apart <= wheel.pitch_radius:
             continue
-        teeth = outer_teeth(other, bore)
+        teeth = outer_teeth(other, bore.point, bore.axis)
         if teeth is None or abs(2 * teeth.pitch_radius / teeth.number - module) > SAME_MODULE * module:
             continue
         if abs(wheel.pitch_radius + teeth.pitch_radius - apart) <= IN_MESH * module:
@@ -60,11 +61,11 @@ def _meshes(known: Known, pin: Bore, wheel: Teeth, other: Part) -> bool:
     return False
 
 
-def outer_teeth(part: Part, about: Bore) -> Teeth | None:
+def outer_teeth(part: Part, point: Vector, axis: Vector) -> Teeth | None:
     """Find the outer teeth of a part about an axis, most often one rim."""
     exact = sum(len(face.triangles) for face in part.faces) == len(part.triangles)
     if exact and len(part.faces) < 2 * LEAST_TEETH:
         return None
-    levels = part.outermost @ about.axis
-    found = find_teeth(part.triangles, about.point, about.axis, (float(levels.min()), float(levels.max())))
+    levels = part.outermost @ axis
+    found = find_teeth(part.triangles, point, axis, (float(levels.min()), float(levels.max())))
     return next((each for each in found if each.side == "outer" and each.counted >= LEAST_TEETH), None)

@@ -1,0 +1,91 @@
+"""Round parts with one hinge that are drawn to turn: shafts, wheels with teeth, what is on a motor, lone wheels.
+
+A part that is round about its only hinge moves nothing else (`spinning`): a washer, a screw, a roller, the grip of a
+crank. That is no freedom of use. It is one where the solids say what it turns for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from jaxkin.assembly.exact_fits import MAX_FIT
+from jaxkin.assembly.inference.bores import SAME_LENGTH
+from jaxkin.assembly.inference.measured import Measured
+from jaxkin.assembly.inference.meshing_wheels import outer_teeth
+from jaxkin.assembly.seats import useful_freedoms
+from jaxkin.joints.evidence import Certainty, EvidenceKind
+from jaxkin.joints.joint import Joint
+from jaxkin.joints.kinds import JointKind
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
+
+
+def with_turning(mechanism: Mechanism, measured: Measured, bearings: Collection[str]) -> Mechanism:
+    """Take those parts out of the ones that only spin which are drawn to turn.
+
+    Shafts with play between faces carry motion in or out, wheels with teeth mesh, and a motor drives what is on its
+    shaft. Where nothing else is of use, the machine is there for its wheels: what is on a pin with play between faces,
+    and ball bearings.
+    """
+    hinges = {part.name: _hinge(mechanism, part.name) for part in mechanism.linkage.spinning}
+    turning = {part: hinge for part, hinge in hinges.items() if hinge is not None}
+    meant = {part for part, hinge in turning.items() if _has_work(part, hinge, measured)}
+    if not meant and not useful_freedoms(mechanism):
+        meant = {part for part, hinge in turning.items() if part in bearings or _is_kept_with_play(hinge)}
+    spinning = tuple(part for part in mechanism.linkage.spinning if part.name not in meant)
+    if len(spinning) == len(mechanism.linkage.spinning):
+        return mechanism
+    return replace(mechanism, linkage=replace(mechanism.linkage, spinning=spinning))
+
+
+def _hinge(mechanism: Mechanism, part: str) -> Joint | None:
+    """Find the only joint of a part, where it is a hinge."""
+    joints = [joint for joint in mechanism.all_joints if part in joint.parts]
+    return joints[0] if len(joints) == 1 and joints[0].kind is JointKind.REVOLUTE else None
+
+
+def _has_work(part: str, hinge: Joint, measured: Measured) -> bool:
+    """Tell whether a part is a shaft, on the shaft of a motor, or has teeth about its hinge with play."""
+    if hinge.evidence is None:
+        return False
+    if hinge.evidence.kind is EvidenceKind.ENCLOSED:
+        return any(each.part in hinge.parts for each in measured.steppers)
+    if not _has_play(hinge):
+        return False
+    pose = np.asarray(hinge.frames_1, float)[0]
+    solid = next(each for each in measured.parts if each.name == part)
+    is_shaft = _is_kept_with_play(hinge) and _is_pin(part, hinge, measured)
+    return is_shaft or outer_teeth(solid, pose[:3, 3], pose[:3, 2]) is not None
+
+
+def _has_play(hinge: Joint) -> bool:
+    """Tell whether a hinge is inferred of a pin in a wider hole."""
+    if hinge.evidence is None or hinge.evidence.kind is not EvidenceKind.CLEARANCE:
+        return False
+    sizes = dict(hinge.evidence.sizes)
+    return sizes.get("clearance", 0.0) > MAX_FIT * sizes["radius"]
+
+
+def _is_kept_with_play(hinge: Joint) -> bool:
+    """Tell whether a hinge with play has faces on both sides that keep it."""
+    doubt = hinge.evidence.doubt if hinge.evidence else None
+    return _has_play(hinge) and (doubt is None or doubt.seen is Certainty.NEAR_LIMIT)
+
+
+def _is_pin(part: str, hinge: Joint, measured: Measured) -> bool:
+    """Tell whether a part is the pin of its hinge, and not the ring around one."""
+    sizes = dict(hinge.evidence.sizes) if hinge.evidence else {}
+    radius = sizes["radius"] - sizes["clearance"]
+    pose = np.asarray(hinge.frames_1, float)[0]
+    for bore in measured.bores[part]:
+        offset = bore.point - pose[:3, 3]
+        away = float(np.linalg.norm(np.cross(offset, pose[:3, 2])))
+        same = abs(bore.radius - radius) <= SAME_LENGTH * radius and away <= sizes["offset"] + SAME_LENGTH * radius
+        if same and not bore.hole:
+            return True
+    return False
