@@ -55,9 +55,7 @@ def _evidence(joint: Joint) -> Evidence:
     point, axis = (np.round(each, 6).tolist() for each in (pose[:3, 3], pose[:3, 2]))
     one, other = joint.parts
     seen = Certainty.UNKEPT_FIT
-    text = (
-        f"{one!r} and {other!r} fit exactly on a radius of {sizes['radius']:.4g}, where others have play, and no faces "
-    )
-    text += f"on both sides keep them there: one body in {seen.right} of {seen.of} such drawings; if they turn, say "
+    text = f"{one!r} and {other!r} fit exactly on a radius of {sizes['radius']:.4g}, where others have play, and no "
+    text += f"faces on both sides keep them there: one body in {seen.right} of {seen.of} such drawings; if they turn, say "
     text += f"joints=[jk.revolute({joint.name!r}, {one!r}, {other!r}, point={point}, axis={axis})]"
     return Evidence(EvidenceKind.TIGHT_FIT, (("radius", sizes["radius"]), ("clearance", sizes["clearance"])), text)

@@ -27,7 +27,7 @@ class EvidenceKind(StrEnum):
     ENCLOSED = "enclosed"
     """A part that only one other part encloses or touches."""
     TIGHT_FIT = "tight fit"
-    """A part that fits another one exactly, where other parts of the drawing have play, and that no face keeps there."""
+    """A part that fits another one exactly, where others of the drawing have play, and that no face keeps there."""
     SUBASSEMBLY = "subassembly"
     """Parts of one sub-assembly of the file's product structure."""
     NEAREST = "nearest"

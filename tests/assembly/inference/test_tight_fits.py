@@ -1,4 +1,4 @@
-"""What fits a pin exactly, and no face keeps there, is pressed on where others have play; short holes guide no slide."""
+"""What fits a pin exactly, and no face keeps there, is pressed on where others have play; short holes guide nothing."""
 
 import re
 
@@ -40,7 +40,7 @@ def test_the_line_that_is_told_makes_the_hinge_again(seed):
     told = next(note for note in drawn.mechanism(fixed=["base"]).notes if "if they turn, say joints=" in note)
     written = re.search(r"say joints=\[(.*)\]$", told)
     assert written is not None
-    hinge = eval(written[1], {"jk": jk})  # noqa: S307 the line that is told is for Python
+    hinge = eval(written[1], {"jk": jk})
     mechanism = drawn.mechanism(fixed=["base"], joints=[hinge])
     assert kind_of(mechanism, "lever", "grip") == "revolute" and mechanism.mobility().useful == 2
 
