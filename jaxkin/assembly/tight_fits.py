@@ -56,6 +56,6 @@ def _evidence(joint: Joint) -> Evidence:
     one, other = joint.parts
     seen = Certainty.UNKEPT_FIT
     text = f"{one!r} and {other!r} fit exactly on a radius of {sizes['radius']:.4g}, where others have play, and no "
-    text += f"faces on both sides keep them there: one body in {seen.right} of {seen.of} such drawings; if they turn, say "
-    text += f"joints=[jk.revolute({joint.name!r}, {one!r}, {other!r}, point={point}, axis={axis})]"
+    text += f"faces on both sides keep them there: one body in {seen.right} of {seen.of} such drawings; if they turn, "
+    text += f"say joints=[jk.revolute({joint.name!r}, {one!r}, {other!r}, point={point}, axis={axis})]"
     return Evidence(EvidenceKind.TIGHT_FIT, (("radius", sizes["radius"]), ("clearance", sizes["clearance"])), text)
