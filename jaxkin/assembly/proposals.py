@@ -112,7 +112,8 @@ def proposals(
     owner = body_of_parts(mechanism.bodies)
 
     def rank(each: Proposal) -> tuple[bool, bool, int, int, int, float]:
-        several, useful = len(each.fixed) > 1, each.freedoms - len(each.wheels)
+        # wheels alone are as good as one freedom, and no better than one beside them
+        several, useful = len(each.fixed) > 1, max(1, each.freedoms - len(each.wheels))
         stills = several and (useful > 1 or each.moving < MIN_MOVING * most)
         weight = sum(abs(solids[part].volume) for part in mechanism.bodies[owner[each.fixed[0]]])
         return bool(each.problem) or not each.moving, stills, useful, len(each.fixed), -each.moving, -weight

@@ -60,3 +60,10 @@ def test_saw_teeth_around_a_bore_are_counted(root, tip):
     solid = part("wheel", ring(1.6, 4.0, 0, 4), prism(saw(32, root, tip), 0, 4))
     found = find_teeth(solid.triangles, np.zeros(3), Z, (0.0, 4.0))
     assert {(each.number, each.side) for each in found} >= {(32, "outer")}
+
+
+def test_no_proposal_fixes_a_lever_so_that_only_the_wheel_beside_it_is_left():
+    base = part("base", *([(face.surface, face.triangles) for each in (PLATE, COLLARS, POST) for face in each.faces],))
+    hub = [ring(4.2, 8.0, -4, 4, at=(-40, 0)), prism(saw(24, 14.0, 17.0), -3, 3, at=(-40, 0))]
+    first = assembly(base, LEVER, part("wheel", *hub)).proposals()[0]
+    assert (len(first.fixed), first.moving) == (1, 2)
