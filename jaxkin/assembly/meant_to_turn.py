@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from jaxkin.assembly.exact_fits import MAX_FIT
-from jaxkin.assembly.inference.bores import SAME_LENGTH
+from jaxkin.assembly.hinge_bores import pins_of
 from jaxkin.assembly.inference.measured import Measured
 from jaxkin.assembly.inference.meshing_wheels import outer_teeth
 from jaxkin.assembly.seats import useful_freedoms
@@ -59,7 +59,7 @@ def _has_work(part: str, hinge: Joint, measured: Measured) -> bool:
         return False
     pose = np.asarray(hinge.frames_1, float)[0]
     solid = next(each for each in measured.parts if each.name == part)
-    is_shaft = _is_kept_with_play(hinge) and _is_pin(part, hinge, measured)
+    is_shaft = _is_kept_with_play(hinge) and any(pin.part == part for pin in pins_of(hinge, measured.bores))
     return is_shaft or outer_teeth(solid, pose[:3, 3], pose[:3, 2]) is not None
 
 
@@ -75,17 +75,3 @@ def _is_kept_with_play(hinge: Joint) -> bool:
     """Tell whether a hinge with play has faces on both sides that keep it."""
     doubt = hinge.evidence.doubt if hinge.evidence else None
     return _has_play(hinge) and (doubt is None or doubt.seen is Certainty.NEAR_LIMIT)
-
-
-def _is_pin(part: str, hinge: Joint, measured: Measured) -> bool:
-    """Tell whether a part is the pin of its hinge, and not the ring around one."""
-    sizes = dict(hinge.evidence.sizes) if hinge.evidence else {}
-    radius = sizes["radius"] - sizes["clearance"]
-    pose = np.asarray(hinge.frames_1, float)[0]
-    for bore in measured.bores[part]:
-        offset = bore.point - pose[:3, 3]
-        away = float(np.linalg.norm(np.cross(offset, pose[:3, 2])))
-        same = abs(bore.radius - radius) <= SAME_LENGTH * radius and away <= sizes["offset"] + SAME_LENGTH * radius
-        if same and not bore.hole:
-            return True
-    return False

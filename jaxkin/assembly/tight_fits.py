@@ -12,7 +12,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from jaxkin.assembly.exact_fits import MAX_FIT, any_has_play
+from jaxkin.assembly.hinge_bores import holes_of
+from jaxkin.assembly.inference.bores import MAX_HOLE_ARC
 from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.measured import Measured
 from jaxkin.joints.evidence import Certainty, Evidence, EvidenceKind
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
@@ -25,16 +28,22 @@ _UNKEPT = (Certainty.ONE_FACE, Certainty.CENTRED, Certainty.SHORT)
 """Doubts of hinges of which no faces on both sides tell that they do not slide."""
 
 
-def tight_fits(mechanism: Mechanism, bearings: Collection[str]) -> list[Inference]:
+def tight_fits(mechanism: Mechanism, measured: Measured, bearings: Collection[str]) -> list[Inference]:
     """Find the parts that fit a pin of one other body exactly and only turn on it by inference, since no faces on both
-    sides keep them there, outside of loops, in a drawing where others have play; none in or on `bearings`."""
+    sides keep them there, outside of loops, in a drawing where others have play.
+
+    None is in or on `bearings`, nor in a half-shell: what is put around a shaft is not pressed on it.
+    """
     if not any_has_play(mechanism):
         return []
     in_loops = joints_in_loops(mechanism.linkage)
     return [
         Inference(joint.parts, _evidence(joint))
         for number, joint in enumerate(mechanism.linkage.joints)
-        if number not in in_loops and not {*joint.parts} & {*bearings} and _is_unkept_fit(joint)
+        if number not in in_loops
+        and not {*joint.parts} & {*bearings}
+        and _is_unkept_fit(joint)
+        and all(hole.open_arc <= MAX_HOLE_ARC for hole in holes_of(joint, measured.bores))
     ]
 
 

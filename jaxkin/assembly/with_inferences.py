@@ -72,7 +72,7 @@ def _with_springs(
     trial = _hold_tight(trials, trial)
     check_ignored(contacts, options.ignore, trials.heeded)
     found = with_doubts(_movable(trials, seats, trial), trials.bearings)
-    found = with_turning(found, assembly._measured, trials.bearings)
+    found = with_turning(found, trials.measured, trials.bearings)
     taken_back = [
         f"nothing is inferred between {one!r} and {other!r}, as was asked for"
         for one, other in options.ignored
@@ -125,9 +125,9 @@ class _Trials:
         """Pairs of parts between which nothing is inferred."""
         self.heeded = set[Pair]()
         """Those of `ignored` for which some inference was left out."""
-        measured = assembly._measured
-        self.bearings = {name for each in measured.bearings for name in (each.outer, each.inner)}
-        self.bearings |= {each.part.name for each in measured.closed_bearings}
+        self.measured = assembly._measured
+        self.bearings = {name for each in self.measured.bearings for name in (each.outer, each.inner)}
+        self.bearings |= {each.part.name for each in self.measured.closed_bearings}
         """The rings of bearings, and bearings that are one part each."""
         self.fasteners = set[str]()
         """Parts that were taken for fasteners in some trial."""
@@ -137,7 +137,7 @@ class _Trials:
         options = self.options
         rigid = [*options.rigid, *(each.parts for each in seats)]
         known = Known(
-            self.assembly._measured,
+            self.measured,
             self.used,
             options.fixed,
             rigid,
@@ -235,7 +235,7 @@ def _hold_lying(trials: _Trials, seats: list[Inference], trial: _Trial) -> _Held
 def _hold_tight(trials: _Trials, trial: _Trial) -> _Trial:
     """Hold parts that fit a pin exactly, and that no face keeps there, where all else moves as before."""
     before = trial.mechanism
-    for held in _choices(tight_fits(before, trials.bearings)) if useful_freedoms(before) else ():
+    for held in _choices(tight_fits(before, trials.measured, trials.bearings)) if useful_freedoms(before) else ():
         if held[0] in trial.inferences:
             break  # all are held together
         other = trials.with_more(trial, held)

@@ -22,7 +22,7 @@ def joint_of(mechanism: jk.Mechanism, one: str, other: str) -> jk.Joint:
 def hinge_with(radius: float, *more) -> jk.Assembly:
     """A lever with a bore of 5 mm on a post of the base, of some radius."""
     base = part("base", BASE, pin(radius, -20, 10))
-    lever = part("lever", ring(5.0, 12.0, -4, 4), block((11, -3, -4), (40, 3, 4)))
+    lever = part("lever", ring(5.0, 12.0, -6, 6), block((11, -3, -6), (40, 3, 6)))
     return assembly(base, lever, *more)
 
 
@@ -41,7 +41,7 @@ def test_a_pin_with_play_or_interference_is_a_pin(radius, clearance):
 @pytest.mark.parametrize("offset", [0.0, 2e-14, 0.1])
 def test_an_offset_that_is_rounding_is_not_told_as_a_size(offset):
     base = part("base", BASE, pin(4.5, -20, 10))
-    lever = part("lever", ring(5.0, 12.0, -4, 4), block((11, -3, -4), (40, 3, 4)))
+    lever = part("lever", ring(5.0, 12.0, -6, 6), block((11, -3, -6), (40, 3, 6)))
     shift = np.eye(4)
     shift[0, 3] = offset
     mechanism = assembly(base, moved(lever, shift)).mechanism(fixed=["base"])
@@ -115,7 +115,7 @@ def test_two_parallel_axes_hold_two_parts_together():
 def test_a_pin_in_a_lug_without_a_hole_belongs_to_the_lug():
     """The base has no bore for the pin that stands in it, and the lever turns about that pin."""
     stud = part("stud", pin(5.0, -25, 10))
-    lever = part("lever", ring(5.0, 12.0, -4, 4), block((11, -3, -4), (40, 3, 4)))
+    lever = part("lever", ring(5.0, 12.0, -6, 6), block((11, -3, -6), (40, 3, 6)))
     mechanism = assembly(part("base", BASE), stud, lever).mechanism(fixed=["base"])
     assert mechanism.bodies["base"] == ("base", "stud")
     assert joint_of(mechanism, "stud", "lever").freedoms == 2
@@ -178,7 +178,7 @@ ELSEWHERE = np.array([[0.0, 0.6, 0.8, 30.0], [0.0, 0.8, -0.6, -20.0], [-1.0, 0.0
 @pytest.mark.parametrize("names", [("base", "stud", "lever"), ("z", "m", "a")])
 @pytest.mark.parametrize("pose", [np.eye(4), ELSEWHERE], ids=["here", "elsewhere"])
 def test_neither_order_nor_names_nor_place_matter(order, names, pose):
-    lever = ring(5.0, 12.0, -4, 4), block((11, -3, -4), (40, 3, 4))
+    lever = ring(5.0, 12.0, -6, 6), block((11, -3, -6), (40, 3, 6))
     pieces = [BASE], [pin(4.5, -25, 10)], lever
     parts = [moved(part(name, *own), pose) for name, own in zip(names, pieces, strict=True)]
     mechanism = assembly(*(parts[k] for k in order)).mechanism(fixed=[names[0]])

@@ -105,7 +105,7 @@ def test_a_rod_in_a_nut_in_a_pocket_is_held_there(seed, pocket, held):
     nut = part("nut", ring(4.0, 6.2, 1, 7)[:3], hexagon(6.2, 1, 7))
     top = part("top", ring(4.0, 9.0, 74, 90), pin(9.0, 90, 94), block((8, -4, 80), (40, 4, 86)))
     rod = part("rod", pin(4.0, 0, 90))
-    lever = part("lever", ring(4.1, 9.0, 8.1, 17.9, (-40.0, 0.0)), block((-36, -3, 30), (-20, 3, 36)))
+    lever = part("lever", ring(4.0, 9.0, 8.1, 17.9, (-40.0, 0.0)), block((-36, -3, 30), (-20, 3, 36)))
     drawn = anywhere(assembly(base, foot, nut, rod, top, lever), seed)
     body = owners(drawn.mechanism(fixed=["base"], rigid=[["base", "foot"]]))
     assert (body["rod"] == body["nut"] == body["foot"]) == held

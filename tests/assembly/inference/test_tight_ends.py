@@ -19,6 +19,8 @@ BASE = block((-60, -60, -140), (60, 60, -130))
 PIVOT = pin(4.0, 0, 60, (100.0, 60.0))
 LEVER = part("pivot lever", ring(4.1, 9.0, 5, 15, (100.0, 60.0)), block((108, 57, 5), (140, 63, 15)))
 """Something that moves on the pivot of the base: where nothing can, inferences are left out until something does."""
+FITTING = part("pivot lever", ring(4.0, 9.0, 5, 15, (100.0, 60.0)), block((108, 57, 5), (140, 63, 15)))
+"""The same without play: where others have some, what fits exactly is pressed on."""
 
 
 def of(seed, *parts):
@@ -111,7 +113,7 @@ def test_a_nut_locks_a_thread_across_a_round_part_beside_a_loose_washer(seed, wa
     bolt = part("bolt", across(ring(6.0, 9.0, -50, -40), pin(4.0, -40, 40)))
     trunnion = part("trunnion", pin(5.0, -13, 13), across(ring(4.0, 4.1, -5, 5)))
     nut, disc = part("nut", across(ring(4.0, 6.0, 5, 8)[:-1])), part("washer", across(ring(washer, 9.0, -20, -17)))
-    body, _ = of(seed, base, bolt, trunnion, nut, disc, LEVER)
+    body, _ = of(seed, base, bolt, trunnion, nut, disc, FITTING)
     assert (body["trunnion"] == body["bolt"]) == locked
 
 
