@@ -30,8 +30,8 @@ def _wall(screw: Bore, face: Face, near: tuple[float, float], least: float) -> V
     along, aside = screw.axis, np.cross(normal, screw.axis)
     corners = face.triangles.reshape(-1, 3) - screw.point
     heights, sides = corners @ along, corners @ aside
-    slack = SAME_LENGTH * screw.radius  # a wall that ends at the axis, or where the screw does, is not beside it
+    slack = SAME_LENGTH * screw.radius  # a wall that ends at the axis is beside the screw, one where the screw ends not
     beside = heights.min() < screw.half - slack and heights.max() > slack - screw.half
-    beside = beside and sides.min() < -slack and sides.max() > slack
+    beside = beside and sides.min() <= slack and sides.max() >= -slack
     close = near[0] * screw.radius <= apart <= near[1] * screw.radius
     return normal if beside and close and np.ptp(sides) >= least else None

@@ -14,7 +14,6 @@ from jaxkin.contacts.overlap import Flat, flat, overlap
 from jaxkin.geometry.part import Face, Part
 from jaxkin.geometry.pose import Vector, unit
 from jaxkin.geometry.surfaces import Plane
-from jaxkin.geometry.triangles import double_areas
 
 MAX_SIDE_PLAY = 0.06
 """Play of a part between two faces, over its width there, in all: drawers that people drew have half a
@@ -27,6 +26,8 @@ meet at an edge do not look at each other."""
 
 LEAST_SIDES = 3
 """Sides of a polygon that keeps a hub from turning, at least: one flat, or two, may be beside it by chance."""
+LARGEST, INSIDE = 8, 0.01
+"""Triangles of a face of which the middle is looked for on another one, and by what share of these it is inside."""
 ALIKE = 0.999
 """Cosine of the angle between two normals of a polygon that are one direction: sides of a polygon of 60 have 0.995."""
 MAX_TURN = 0.1
@@ -162,11 +163,9 @@ def _are_opposite(
 
 
 def _along_a_side(face: Face) -> Vector:
-    """Choose the direction of the shortest side of the largest triangle of a plane face: along a side of a rectangle,
-    however that is turned."""
-    triangles = face.triangles
-    corners = triangles[np.argmax(np.sum(double_areas(triangles) ** 2, axis=1))]
-    sides = np.roll(corners, -1, axis=0) - corners
+    """Choose the direction of the shortest side of a triangle of a plane face: along a side of a rectangle, however
+    that is turned."""
+    sides = np.roll(face.triangles[0], -1, axis=0) - face.triangles[0]
     return unit(sides[np.argmin(np.sum(sides**2, axis=1))])
 
 
@@ -174,33 +173,51 @@ class _Outline(NamedTuple):
     """A plane face in coordinates of a plane."""
 
     triangles: Flat
+    areas: Float[np.ndarray, " triangles"]
+    """Twice the areas of its triangles, less than zero of those that are turned clockwise."""
     low: Float[np.ndarray, "2"]
     high: Float[np.ndarray, "2"]
-    is_box: bool
-    """Whether the face is a rectangle along the axes, as most are."""
 
     @staticmethod
     def of(triangles: Flat) -> _Outline:
         """Measure a face."""
         corners = triangles.reshape(-1, 2)
-        low, high = corners.min(axis=0), corners.max(axis=0)
         sides = triangles[:, 1:] - triangles[:, :1]
-        area = np.abs(sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0]).sum() / 2
-        return _Outline(triangles, low, high, bool(area >= (1 - NARROW) * np.prod(high - low)))
+        areas = sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0]
+        return _Outline(triangles, areas, corners.min(axis=0), corners.max(axis=0))
 
     @property
     def longest(self) -> float:
         """The longer side of its box."""
         return float(np.max(self.high - self.low))
 
+    @property
+    def is_box(self) -> bool:
+        """Whether the face is a rectangle along the axes, as most are."""
+        return bool(np.abs(self.areas).sum() / 2 >= (1 - NARROW) * np.prod(self.high - self.low))
+
     def shared_width(self, other: _Outline) -> float | None:
-        """Measure the diagonal of the box of what two faces share; None where that is nothing but an edge."""
+        """Measure the diagonal of what the boxes of two faces share; None where the faces share nothing but an edge."""
         low, high = np.maximum(self.low, other.low), np.minimum(self.high, other.high)
         if np.any(high <= low):
             return None
+        width = float(np.linalg.norm(high - low))
         if self.is_box and other.is_box:
-            area, width = float(np.prod(high - low)), float(np.linalg.norm(high - low))
+            area = float(np.prod(high - low))
+        elif self._covers_middles(other) or other._covers_middles(self):
+            return width
         else:
             shared = overlap(self.triangles, other.triangles, 0.0)
-            area, width = (0.0, 0.0) if shared is None else (shared.area, shared.extent)
+            area = 0.0 if shared is None else shared.area
         return width if area > NARROW * width**2 else None
+
+    def _covers_middles(self, other: _Outline) -> bool:
+        """Tell whether it covers the middle of one of the largest triangles of another face: a tenth of the time of
+        what they share."""
+        largest = np.argpartition(-np.abs(other.areas), min(LARGEST, len(other.areas)) - 1)[:LARGEST]
+        middles = other.triangles[largest].mean(axis=1)
+        starts = self.triangles[None]
+        edges, offset = np.roll(starts, -1, axis=2) - starts, middles[:, None, None] - starts
+        turns = edges[..., 0] * offset[..., 1] - edges[..., 1] * offset[..., 0]
+        least = INSIDE * np.abs(self.areas)[:, None]
+        return bool((np.all(turns > least, axis=-1) | np.all(turns < -least, axis=-1)).any())
