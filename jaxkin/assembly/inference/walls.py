@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import NamedTuple
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from jaxtyping import Bool, Float
 
+from jaxkin._memory import once_for_each
 from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.contacts.contact import Contact
 from jaxkin.contacts.overlap import Flat, flat, overlap
 from jaxkin.geometry.part import Face, Part
-from jaxkin.geometry.pose import Vector, unit
+from jaxkin.geometry.pose import Vector, perpendicular, unit
 from jaxkin.geometry.surfaces import Plane
 
 MAX_SIDE_PLAY = 0.06
@@ -36,6 +38,8 @@ MAX_TURN = 0.1
 
 Looking = tuple[Vector, float, float]
 """A face of a part that looks at another body: see `facing`."""
+_Opposed = tuple[Plane, Face, Face, float]
+"""Two faces that look at each other: the plane of the first one, both faces, and the gap between them."""
 
 
 def between_faces(one: Part, *others: Part) -> list[tuple[Vector, float]]:
@@ -46,7 +50,7 @@ def between_faces(one: Part, *others: Part) -> list[tuple[Vector, float]]:
 
 def facing(one: Part, others: Sequence[Part]) -> list[Looking]:
     """Find the faces of a part that look at faces of others: normals, gaps, and where the faces are along them."""
-    found = _opposed(_planes([one]), _planes(others))
+    found = (each for other in others for each in _opposed_faces(one, other))
     return [(plane.normal, gap, float(plane.point @ plane.normal)) for plane, _, _, gap in found]
 
 
@@ -116,22 +120,31 @@ def lengths_beside(hub: Part, shaft: Part, axis: Vector) -> tuple[float, float]:
 
 def _beside(ones: Sequence[Part], others: Sequence[Part], axis: Vector) -> list[tuple[Vector, Face, Face, float]]:
     """Find the plane faces along an axis of a body that look at those of another one, with their normals and gaps."""
-    first, second = (
-        [(plane, face) for plane, face in _planes(parts) if abs(plane.normal @ axis) < ACROSS]
-        for parts in (ones, others)
-    )
-    return [(plane.normal, a, b, gap) for plane, a, b, gap in _opposed(first, second)]
+    found = (each for one in ones for other in others for each in _opposed_faces(one, other))
+    return [(plane.normal, a, b, gap) for plane, a, b, gap in found if abs(plane.normal @ axis) < ACROSS]
 
 
-def _planes(parts: Sequence[Part]) -> list[tuple[Plane, Face]]:
-    """List the plane faces of parts."""
-    return [(face.surface, face) for part in parts for face in part.faces if isinstance(face.surface, Plane)]
+def _opposed_faces(one: Part, other: Part) -> list[_Opposed]:
+    """Find the plane faces of two parts that look at each other, once for many rules and mechanisms that are tried."""
+    kept = _opposed_to(one)
+    if other not in kept:
+        kept[other] = _opposed(_planes(one), _planes(other))
+    return kept[other]
 
 
-def _opposed(
-    ones: Sequence[tuple[Plane, Face]], others: Sequence[tuple[Plane, Face]]
-) -> list[tuple[Plane, Face, Face, float]]:
-    """Find the plane faces that look at each other: the plane of the first, both faces, and the gap between them.
+@once_for_each
+def _opposed_to(one: Part) -> WeakKeyDictionary[Part, list[_Opposed]]:
+    """Keep what was found for a part and each other one."""
+    return WeakKeyDictionary()
+
+
+def _planes(part: Part) -> list[tuple[Plane, Face]]:
+    """List the plane faces of a part."""
+    return [(face.surface, face) for face in part.faces if isinstance(face.surface, Plane)]
+
+
+def _opposed(ones: Sequence[tuple[Plane, Face]], others: Sequence[tuple[Plane, Face]]) -> list[_Opposed]:
+    """Find the plane faces that look at each other.
 
     Faces that are only beside each other along the normal of the first do not.
     """
@@ -142,7 +155,7 @@ def _opposed(
         opposite = np.flatnonzero(_are_opposite(plane.normal[None], against)[0]).tolist()
         if not opposite:
             continue
-        x = _along_a_side(a)
+        x = _along_a_side(plane, a)
         across = plane.point, x, np.cross(plane.normal, x)
         own = _Outline.of(flat(a.triangles, *across))
         for other, b in (others[k] for k in opposite):
@@ -162,11 +175,14 @@ def _are_opposite(
     return ones @ others.T <= ACROSS**2 / 2 - 1
 
 
-def _along_a_side(face: Face) -> Vector:
-    """Choose the direction of the shortest side of a triangle of a plane face: along a side of a rectangle, however
-    that is turned."""
+def _along_a_side(plane: Plane, face: Face) -> Vector:
+    """Choose a direction in a plane face that turns with it: the shortest side of one of its triangles, which is along
+    a side of a rectangle."""
     sides = np.roll(face.triangles[0], -1, axis=0) - face.triangles[0]
-    return unit(sides[np.argmin(np.sum(sides**2, axis=1))])
+    squares = np.sum(sides**2, axis=1)
+    if not squares.all():  # a triangle without an area
+        return perpendicular(plane.normal)
+    return unit(sides[np.argmin(squares)])
 
 
 class _Outline(NamedTuple):
