@@ -72,6 +72,8 @@ def is_rigid(matrix: Transform) -> bool:
     That is: all entries are finite, R^T R = I, det R = 1, and the last row is 0, 0, 0, 1.
     """
     turn = matrix[:3, :3]
+    if not np.all(np.abs(turn) <= 1 + RIGID_TOLERANCE):  # their squares may be no numbers
+        return False
     errors = np.concatenate([(turn.T @ turn - np.eye(3)).ravel(), matrix[3] - [0.0, 0.0, 0.0, 1.0]])
     return bool(np.all(np.isfinite(matrix)) and np.abs(errors).max() <= RIGID_TOLERANCE and np.linalg.det(turn) > 0)
 
