@@ -5,7 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
+import numpy as np
+
 from jaxkin.assembly.inference.axes import CommonAxis, engaged
+from jaxkin.assembly.inference.bores import Bore
+from jaxkin.assembly.inference.fasteners import away_from
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sleeves import SAME_FIT, is_round_about
@@ -18,6 +22,9 @@ MAX_RING_LENGTH = 0.4
 MIN_LOOSE = 0.045
 """Clearance of a screw in what it clamps on the end of a rod, over the radius of the hole, at least: M5 to M10 have
 0.048 to 0.063 in the fine series of ISO 273."""
+SLENDER = 4.0
+"""Length of a bar along an axis over its width across, at least, that a screw in its end pulls against a part: links
+and levers are wide across the axis that they turn about."""
 MIN_PRESS = 2e-4
 """Interference of a press fit over the radius, at least: less is rounding, of the file or of inches."""
 MAX_PRESS = 5e-3
@@ -110,7 +117,7 @@ def screwed_on_ends(known: Known) -> list[Inference]:
 
 
 def bolted_ends(known: Known) -> list[Inference]:
-    """Join round rods with the part that they end on, where a screw through that part is tight in the end of the rod.
+    """Join rods with the part that they end on, where a screw through that part is tight in the end of the rod.
 
     Head and rod grip the part on both sides, however loose the screw is in it. What is round about the rod, as a roller
     between the end of its post and a washer, is left to turn, and so are what fits the screw more closely, and links:
@@ -119,7 +126,7 @@ def bolted_ends(known: Known) -> list[Inference]:
     body, found = known.body, []
     for end in known.axes:
         rod = end.other.part
-        if end.virtual or abs(end.clearance) > SAME_FIT * end.other.radius or not is_round_about(known, rod, end.other):
+        if end.virtual or abs(end.clearance) > SAME_FIT * end.other.radius or not _is_rod(known, rod, end.other):
             continue
         if end.other.half < MAX_RING_LENGTH * end.other.radius:
             continue  # a retaining ring on the end of a pin
@@ -132,6 +139,14 @@ def bolted_ends(known: Known) -> list[Inference]:
             text = f"{screw!r} in the end of {rod!r} pulls it against {part!r}"
             result.append(known.fastened(through, text, rod, part))
     return result
+
+
+def _is_rod(known: Known, part: str, hole: Bore) -> bool:
+    """Tell whether a part is round about an axis, or slender along it as a bar between two cheeks is."""
+    if is_round_about(known, part, hole):
+        return True
+    solid = known.solids[part]
+    return float(np.ptp(solid.outermost @ hole.axis)) >= SLENDER * 2 * away_from(solid, hole)
 
 
 def _grips(known: Known, end: CommonAxis, through: CommonAxis) -> bool:

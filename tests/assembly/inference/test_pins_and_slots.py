@@ -86,3 +86,14 @@ def test_a_stop_screw_in_its_cap_is_not_one_body_with_the_piston_that_meets_it(s
     piston, screw = part("piston", pin(10, 10, 40)), part("screw", pin(3.0, 40, 80), pin(5, 80, 84))
     _, mechanism = of(seed, base, piston, screw, LEVER)
     assert any("stands on the coaxial end of 'piston'" in note for note in mechanism.history) == held
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(("wide", "held"), [(9.0, True), (60.0, False)])
+def test_a_bar_that_ends_on_a_part_is_held_there_by_the_screw_in_its_end(seed, wide, held):
+    """A bar between two cheeks is slender along the screw, as a rod is; a link is wide across it."""
+    base = part("base", ring(3.3, 10, 0, 5), block((-60, -20, 0), (-10, 20, 5)), PIVOT)
+    bar = part("bar", ring(3, 8, 5, 25), block((-wide, -8, 25), (9, 8, 160)))
+    screw = part("screw", pin(3, -0.1, 24), pin(6, -6, 0))
+    _, mechanism = of(seed, base, bar, screw, LEVER)
+    assert any("'screw' in the end of 'bar' pulls it against 'base'" in note for note in mechanism.history) == held
