@@ -185,7 +185,8 @@ class AssemblyModes:
 
     def save(self, path: str | Path) -> Path:
         """Write the displacements of all joints as comma-separated values, a row a mode; returns the path."""
-        return save_displacements(self.motion.mechanism.all_joints, self.motion.displacements, Path(path))
+        mechanism = self.motion.mechanism
+        return save_displacements(mechanism.all_joints, self.motion.displacements, mechanism.unit, Path(path))
 
 
 def assembly_modes(

@@ -20,6 +20,7 @@ from jaxkin.effects.curve_range import DOUBLE, SINGLE, CurvePoints, CurveRange, 
 from jaxkin.effects.cusps_crossings import Crossing, Cusp, crossings_of, cusps_of
 from jaxkin.effects.pose_plot import save_rows
 from jaxkin.effects.rates import accelerations, velocities
+from jaxkin.geometry.headings import coordinate_with_unit, places_with_unit
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.pose import Vector
 from jaxkin.mechanism.motion import Motion, as_point
@@ -99,7 +100,8 @@ class CouplerCurve:
 
     def save(self, path: str | Path) -> Path:
         """Write input and point of each pose as comma-separated values; returns the path."""
-        return save_rows([self.drive, "x", "y", "z"], np.vstack([self.inputs, self.points.T]), Path(path))
+        names = [coordinate_with_unit(self.drive, self.unit), *places_with_unit(self.unit)]
+        return save_rows(names, np.vstack([self.inputs, self.points.T]), Path(path))
 
     def _place(self, point: Vector) -> str:
         return f"({', '.join(f'{x:.6g}' for x in point)}) {self.unit}".rstrip()

@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from jaxkin.effects.pose_plot import draw_lines, save_rows
+from jaxkin.geometry.headings import with_unit
 
 IN_THE_WAY = 1e-6
 """Depth, over the size of a profile, from which on something is in the way: far above rounding, and below what can be
@@ -122,7 +123,11 @@ class CurveContacts:
 
     def save(self, path: str | Path) -> Path:
         """Write all numbers as comma-separated values, a row a pose; returns the path."""
-        return save_rows(*self._rows(("parameter", "curvature", "clearance", "depth", "beyond")), Path(path))
+        fields = ("parameter", "curvature", "clearance", "depth", "beyond")
+        units = [f"1/{self.unit}" if field == "curvature" and self.unit else self.unit for field in fields]
+        names, rows = self._rows(fields)
+        heads = [with_unit(name, unit) for name, unit in zip(names, units * len(self.contacts), strict=True)]
+        return save_rows(heads, rows, Path(path))
 
     def _rows(self, fields: tuple[str, ...]) -> tuple[list[str], Float[np.ndarray, "rows poses"]]:
         names = [f"{each.joint} {field}" for each in self.contacts for field in fields]

@@ -87,7 +87,8 @@ class Limits:
 
     def save(self, path: str | Path) -> Path:
         """Write the displacements of all joints at the limits and as assembled as comma-separated values."""
-        return save_displacements(self.motion.mechanism.all_joints, self.motion.displacements, Path(path))
+        mechanism = self.motion.mechanism
+        return save_displacements(mechanism.all_joints, self.motion.displacements, mechanism.unit, Path(path))
 
     def _value(self, value: float) -> str:
         return f"{value:.9g} {self.unit}".rstrip() if np.isfinite(value) else f"{value}"

@@ -24,6 +24,7 @@ from jaxkin.effects.mode_limits import WithinLimits
 from jaxkin.effects.pose_plot import save_rows
 from jaxkin.effects.region_plot import draw_regions
 from jaxkin.effects.sheets import Sheets
+from jaxkin.geometry.headings import coordinate_with_unit
 from jaxkin.linkage.coordinates import coordinates
 from jaxkin.mechanism.drive_plan import plan_drive
 from jaxkin.mechanism.mechanism import Mechanism
@@ -98,7 +99,8 @@ class ModeRegions:
         grid = np.meshgrid(*self.inputs.values(), indexing="ij")
         names = ["+".join(self._numbers(modes)) for modes in self.regions]
         rows = np.array([np.ravel(each) for each in (*grid, *self.poses)], float)
-        return save_rows([*self.inputs, *(f"poses of modes {name}" for name in names)], rows, Path(path))
+        inputs = [coordinate_with_unit(name, self.modes.motion.mechanism.unit) for name in self.inputs]
+        return save_rows([*inputs, *(f"poses of modes {name}" for name in names)], rows, Path(path))
 
     @property
     def _limits(self) -> str:

@@ -203,7 +203,7 @@ class MotionLaw:
         time; returns the path."""
         times = self.times(poses)
         rows = [times, *(np.asarray(self(times, order)) for order in range(4))]
-        return save_rows(["time", "displacement", "velocity", "acceleration", "jerk"], np.stack(rows), Path(path))
+        return save_rows(["time [s]", "displacement", "velocity", "acceleration", "jerk"], np.stack(rows), Path(path))
 
 
 @partial(whole_program, static=(0, 1))

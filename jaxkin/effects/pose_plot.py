@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin._files import DPI, quoted, save_figure, save_table, text_width
+from jaxkin.geometry.headings import coordinate_with_unit
 from jaxkin.joints.joint import Joint
 
 NAMED = 12
@@ -123,8 +124,13 @@ def save_rows(names: Sequence[str], rows: Float[np.ndarray, "rows poses"], path:
     return save_table(["pose", *map(quoted, names)], map(str, range(rows.shape[1])), rows, path)
 
 
-def save_displacements(joints: Sequence[Joint], displacements: Sequence[Float[Any, "poses _"]], path: Path) -> Path:
-    """Write the displacements of all joints by `save_rows`, a column a coordinate; returns the path."""
-    names = [name for joint in joints for name in joint.full_names]
+def save_displacements(
+    joints: Sequence[Joint], displacements: Sequence[Float[Any, "poses _"]], unit: str, path: Path
+) -> Path:
+    """Write the displacements of all joints by `save_rows`, a column a coordinate; returns the path.
+
+    `unit` is that of lengths, "" where it is not known.
+    """
+    names = [coordinate_with_unit(name, unit) for joint in joints for name in joint.full_names]
     rows = np.concatenate([np.asarray(each) for each in displacements], axis=1)
     return save_rows(names, rows.T, path)

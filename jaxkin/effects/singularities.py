@@ -17,6 +17,7 @@ from jaxkin.effects.motion_curve import MotionCurve
 from jaxkin.effects.pose_plot import save_rows
 from jaxkin.effects.workspace import Workspace, drawn
 from jaxkin.effects.workspace_plot import draw_workspace
+from jaxkin.geometry.headings import coordinate_with_unit, places_with_unit
 from jaxkin.geometry.pose import apply
 from jaxkin.linkage.closed_loops import closed_loops
 from jaxkin.linkage.coordinates import coordinate
@@ -54,7 +55,9 @@ class Singularities:
     def save(self, path: str | Path) -> Path:
         """Write inputs and places as comma-separated values, a row a point; returns the path."""
         rows = np.concatenate([self.values, self.points], axis=1)
-        return save_rows([*self.workspace.inputs, "x", "y", "z"], rows.T, Path(path))
+        unit = self.workspace.motion.mechanism.unit
+        names = [coordinate_with_unit(name, unit) for name in self.workspace.inputs]
+        return save_rows([*names, *places_with_unit(unit)], rows.T, Path(path))
 
 
 def singularities(workspace: Workspace) -> Singularities:

@@ -20,6 +20,7 @@ from jaxkin.effects.determined_drive import check_determined
 from jaxkin.effects.grid_flood import Flooded, flood, nodes_around
 from jaxkin.effects.pose_plot import save_rows
 from jaxkin.effects.workspace_plot import WorkspaceMap, draw_workspace
+from jaxkin.geometry.headings import coordinate_with_unit, places_with_unit
 from jaxkin.linkage.coordinates import coordinates
 from jaxkin.linkage.first_order import Columns
 from jaxkin.linkage.joint_motion import part_transforms
@@ -112,7 +113,9 @@ class Workspace:
         """Write inputs, status, point, sigma_min and condition as comma-separated values, a row a pose."""
         first, second = np.meshgrid(*self.inputs.values(), indexing="ij")
         rows = [first, second, self.status, *np.moveaxis(self.points, -1, 0), self.sigma_min, self.condition]
-        names = [*self.inputs, "status", "x", "y", "z", "sigma_min", "condition"]
+        unit = self.motion.mechanism.unit
+        inputs = [coordinate_with_unit(name, unit) for name in self.inputs]
+        names = [*inputs, "status", *places_with_unit(unit), "sigma_min", "condition"]
         return save_rows(names, np.array([np.ravel(row) for row in rows], float), Path(path))
 
 

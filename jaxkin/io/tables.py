@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from jaxkin.geometry.movements import is_length
+from jaxkin.geometry.headings import coordinate_with_unit
 from jaxkin.solve.status import Status
 
 if TYPE_CHECKING:
@@ -53,10 +53,10 @@ def write_table(motion: Motion, path: Path) -> None:
     """
     columns: dict[str, np.ndarray] = {"pose": np.arange(len(motion))}
     for name, values in motion.inputs.items():
-        columns[f"input:{_heading(name, motion.mechanism.unit)}"] = np.asarray(values)
+        columns[f"input:{coordinate_with_unit(name, motion.mechanism.unit)}"] = np.asarray(values)
     for name, joint in motion.mechanism.joints.items():
         for index, full_name in enumerate(joint.full_names):
-            heading = _heading(full_name, motion.mechanism.unit)
+            heading = coordinate_with_unit(full_name, motion.mechanism.unit)
             columns[heading] = np.asarray(motion.coordinates[name])[:, index]
     columns["status"] = np.array([status.name for status in Status])[np.asarray(motion.status)]
     columns["residual"] = np.asarray(motion.residual)
@@ -64,10 +64,3 @@ def write_table(motion: Motion, path: Path) -> None:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(columns)
         writer.writerows(zip(*(column.astype(str).tolist() for column in columns.values()), strict=True))
-
-
-def _heading(name: str, unit: str) -> str:
-    """Write the name of a coordinate with its unit, which for lengths may not be known."""
-    if not is_length(name.rpartition(".")[2]):
-        return f"{name} [rad]"
-    return f"{name} [{unit}]" if unit else name

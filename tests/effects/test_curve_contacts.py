@@ -188,7 +188,7 @@ def test_drawn_and_saved(tmp_path):
     found = jk.curve_contacts(on_cam("roller", radius=10.0).sweep({"shaft": TURN}))
     assert found.plot(tmp_path / "contacts.png").stat().st_size > 1000
     table = found.save(tmp_path / "contacts.csv").read_text().splitlines()
-    assert len(table) == len(TURN) + 1 and table[0].startswith('pose,"contact parameter"')
+    assert len(table) == len(TURN) + 1 and table[0].startswith('pose,"contact parameter [mm]"')
 
 
 def test_mechanisms_without_curves_are_refused():

@@ -92,7 +92,7 @@ def test_a_law_is_drawn_and_saved(tmp_path):
     assert law.plot(tmp_path / "law.png").stat().st_size > 10_000
     table = np.genfromtxt(law.save(tmp_path / "law.csv", poses=7), delimiter=",", names=True)
     for order, name in enumerate(("displacement", "velocity", "acceleration", "jerk")):
-        np.testing.assert_allclose(table[name], law(table["time"], order), rtol=1e-12, atol=1e-12)
+        np.testing.assert_allclose(table[name], law(table["time_s"], order), rtol=1e-12, atol=1e-12)
 
 
 def test_traced_numbers_of_a_law_are_refused():

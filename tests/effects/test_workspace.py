@@ -61,7 +61,8 @@ def check_singularities(found: jk.Workspace, rod: float, folder) -> None:
     assert set(ends.reasons) == {"the axes of B, C and D lie in one plane"}
     assert f"{edges} points of singularity curves over A.phi and E.phi" in str(ends)
     assert ends.plot(folder / "singular.png").read_bytes().startswith(b"\x89PNG")
-    assert len(ends.save(folder / "singular.csv").read_text().splitlines()) == 1 + edges
+    table = ends.save(folder / "singular.csv").read_text().splitlines()
+    assert len(table) == 1 + edges and table[0].startswith('pose,"A.phi [rad]","E.phi [rad]","x')
 
 
 def test_a_serial_arm_reaches_all():

@@ -22,6 +22,7 @@ from jaxkin.effects.forces.rounding import force_terms, weights_of_all
 from jaxkin.effects.forces.vanishing import WITHIN, PerPose, vanishing
 from jaxkin.effects.forces.wrenches import units_of
 from jaxkin.effects.pose_plot import draw_lines, save_rows
+from jaxkin.geometry.headings import coordinate_with_unit
 from jaxkin.linkage.coordinates import coordinates
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
@@ -134,7 +135,8 @@ class Equilibrium:
         values = np.concatenate([self.values, self.indifferent.ravel()])
         order = np.argsort(values, kind="stable")
         stable = np.concatenate([stable, np.full(self.indifferent.size, np.nan)])
-        return save_rows([self.name, "stable"], np.stack([values, stable])[:, order], Path(path))
+        name = coordinate_with_unit(self.name, self.motion.mechanism.unit)
+        return save_rows([name, "stable"], np.stack([values, stable])[:, order], Path(path))
 
 
 def equilibrium(

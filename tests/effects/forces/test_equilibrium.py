@@ -101,7 +101,7 @@ def test_a_spring_against_a_weight(tmp_path):
     np.testing.assert_allclose(found.values, [expected], atol=1e-9)
     assert found.stable.tolist() == [True]
     assert found.plot(tmp_path / "equilibrium.png").stat().st_size > 10_000
-    assert found.save(tmp_path / "equilibrium.csv").read_text().splitlines()[0] == 'pose,"A.phi","stable"'
+    assert found.save(tmp_path / "equilibrium.csv").read_text().splitlines()[0] == 'pose,"A.phi [rad]","stable"'
     none = jk.equilibrium(mechanism, {"A": np.linspace(0.0, 1.0, 7)}, own, **given)
     assert len(none.values) == 0 and str(none) == "No equilibrium of A.phi from 0 to 1"
     none.plot(tmp_path / "none.png")
