@@ -11,6 +11,7 @@ from jaxkin.assembly.inference.contact_faces import faces_of
 from jaxkin.geometry.outline import widest_gap
 from jaxkin.geometry.part import Face
 from jaxkin.geometry.triangles import double_areas
+from jaxkin.joints.evidence import EvidenceKind
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
 
@@ -54,3 +55,16 @@ def _have_room(sides: tuple[list[Face], list[Face]], along: Float[np.ndarray, " 
     """Tell whether the faces of one side are longer along a slide than those of the other."""
     lengths = [np.ptp(np.concatenate([face.triangles.reshape(-1, 3) for face in faces]) @ along) for faces in sides]
     return bool(max(lengths) >= ROOM * min(lengths))
+
+
+def has_free_slide(mechanism: Mechanism) -> bool:
+    """Tell whether a slide that walls with play imply is an idle motion: a carriage whose screw is not coupled yet
+    moves nothing else, but is not locked."""
+    idle = {*mechanism.mobility().idle}
+    return any(
+        joint.kind is JointKind.PRISMATIC
+        and joint.evidence is not None
+        and joint.evidence.kind is EvidenceKind.CLEARANCE
+        and {f"{joint.name}.{name}" for name in joint.coordinates} <= idle
+        for joint in mechanism.all_joints
+    )

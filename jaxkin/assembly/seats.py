@@ -68,6 +68,12 @@ def seats_of(mechanism: Mechanism, inexact: bool, bearings: Collection[str]) -> 
     return result
 
 
+def is_on_one_plane(mechanism: Mechanism, seat: Inference) -> bool:
+    """Tell whether all that faces hold of a seat is that one part lies flat on the other."""
+    joints = [joint for joint in mechanism.all_joints if {*joint.parts} == {*seat.parts}]
+    return any(joint.kind is JointKind.PLANAR for joint in joints)
+
+
 def locks_slide(mechanism: Mechanism, seat: Joint, owner: Mapping[str, str]) -> bool:
     """Tell whether one of two bodies slides in a third one on which the other one turns: a crank and the yoke on it."""
     kinds: dict[tuple[str, str], set[JointKind]] = {}

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from jaxkin.assembly.caps import told_caps
 from jaxkin.assembly.dropped_inference import with_count, with_note_of_dropped, without_weakest
 from jaxkin.assembly.exact_fits import with_doubts
+from jaxkin.assembly.guides import has_free_slide
 from jaxkin.assembly.ignored_contacts import check_ignored, without
 from jaxkin.assembly.inference.infer import infer
 from jaxkin.assembly.inference.inference import Inference
@@ -17,14 +18,12 @@ from jaxkin.assembly.inference.springs import DrawnSpring, springs
 from jaxkin.assembly.lids import under_lids
 from jaxkin.assembly.meant_to_turn import with_turning
 from jaxkin.assembly.resting import leaves_all_moving, resting
-from jaxkin.assembly.seats import seats_of, useful_freedoms
+from jaxkin.assembly.seats import is_on_one_plane, seats_of, useful_freedoms
 from jaxkin.assembly.tight_fits import tight_fits
 from jaxkin.assembly.to_mechanism import MechanismOptions, detection_of, make_mechanism
 from jaxkin.assembly.undrawn_shafts import told_shafts
 from jaxkin.contacts.contact import Contact, Contacts
-from jaxkin.joints.evidence import EvidenceKind
 from jaxkin.joints.joint import Joint
-from jaxkin.joints.kinds import JointKind
 from jaxkin.topology.bodies import bodies, body_of_parts
 
 if TYPE_CHECKING:
@@ -202,23 +201,30 @@ def _hold_seated(trials: _Trials, seats: list[Inference], trial: _Trial) -> _Hel
     bearings = {each.part.name for each in trials.assembly._measured.closed_bearings}
     for _ in range(_ROUNDS):
         new = seats_of(trial.mechanism, inexact, bearings)
-        if not new:
+        firm = [each for each in new if not is_on_one_plane(trial.mechanism, each)]
+        # what lies on one plane only is the first to be no seat, as a knife that slides on its guards
+        for some in [new, firm] if firm != new else [new]:
+            if some and (other := _seated(trials, seats, trial, some)) is not None:
+                break
+        else:
             break
-        more = [*seats, *new]
-        other = trials.make(more)
-        # seats may take nothing of use; that slides can be stopped then which were not before is no objection; where
-        # more is free with them, they changed which parts others hold, and stops would hide that
-        fewer = other.before_stops <= trial.before_stops
-        same = _not_idle(other.mechanism) == _not_idle(trial.mechanism) and fewer
-        kept = (
-            same
-            or other.before_stops == trial.before_stops
-            or leaves_all_moving(trial.mechanism, other.mechanism, new, but_slides=True)
-        )
-        if not (same or (kept and useful_freedoms(other.mechanism))):
-            break
-        seats, trial = more, other
+        seats, trial = [*seats, *some], other
     return seats, trial
+
+
+def _seated(trials: _Trials, seats: list[Inference], trial: _Trial, new: list[Inference]) -> _Trial | None:
+    """Try some more seats; None where these change anything else."""
+    other = trials.make([*seats, *new])
+    # seats may take nothing of use; that slides can be stopped then which were not before is no objection; where
+    # more is free with them, they changed which parts others hold, and stops would hide that
+    fewer = other.before_stops <= trial.before_stops
+    same = _not_idle(other.mechanism) == _not_idle(trial.mechanism) and fewer
+    kept = (
+        same
+        or other.before_stops == trial.before_stops
+        or leaves_all_moving(trial.mechanism, other.mechanism, new, but_slides=True)
+    )
+    return other if same or (kept and useful_freedoms(other.mechanism)) else None
 
 
 def _hold_lying(trials: _Trials, seats: list[Inference], trial: _Trial) -> _Held:
@@ -252,7 +258,7 @@ def _moves_as_before(trial: _Trial, other: _Trial, held: Sequence[Inference]) ->
 def _movable(trials: _Trials, seats: Sequence[Inference], trial: _Trial) -> Mechanism:
     """Find the mechanism with all its inferences counted; where these lock it, without the weakest that does."""
     mechanism, found = trial.mechanism, trial.inferences
-    moves = useful_freedoms(mechanism) or _has_free_slide(mechanism)
+    moves = useful_freedoms(mechanism) or has_free_slide(mechanism)
     counted = with_count(mechanism, found)
     if moves or not found:
         return counted
@@ -284,16 +290,3 @@ def _without_inner(assembly: Assembly, options: MechanismOptions, found: Sequenc
     groups = [each.parts for each in found if each.joint is None]
     body = bodies(assembly.names, options.fixed, [*options.rigid, *groups])
     return [each for each in found if each.joint is None or len({body[part] for part in each.parts}) > 1]
-
-
-def _has_free_slide(mechanism: Mechanism) -> bool:
-    """Tell whether a slide that walls with play imply is an idle motion: a carriage whose screw is not coupled yet
-    moves nothing else, but is not locked."""
-    idle = {*mechanism.mobility().idle}
-    return any(
-        joint.kind is JointKind.PRISMATIC
-        and joint.evidence is not None
-        and joint.evidence.kind is EvidenceKind.CLEARANCE
-        and {f"{joint.name}.{name}" for name in joint.coordinates} <= idle
-        for joint in mechanism.all_joints
-    )
