@@ -61,8 +61,9 @@ def read_step(
     not read in time. Warns where the reader met damages, or parts, faces or their triangles are not what the file says.
     """
     path = Path(path)
-    text = _checked(with_other_files(_text(path), path, _text, MAX_STEP_BYTES), path.name)
-    limit = TimeLimit.start(path, seconds, len(text))
+    own = _text(path)
+    text = _checked(with_other_files(own, path, _text, MAX_STEP_BYTES), path.name)
+    limit = TimeLimit.start(path, seconds, path.stat().st_size + len(text) - len(own))
     unit_name, metres = length_unit(text, path.name)
     off, relative = uncertainty(text), text_rounding(text)
     placed = placed_parts(text, path.name)
