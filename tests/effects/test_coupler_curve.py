@@ -251,6 +251,7 @@ def test_what_makes_no_sense_is_refused(motion):
         jax.jit(lambda point: jk.coupler_curve(motion, "coupler", point).points)(np.zeros(3))
 
 
+@pytest.mark.long
 def test_poses_that_are_not_closed_are_told_and_those_between_them_drawn(motion, tmp_path, monkeypatch):
     inputs = TURN[:40].copy()
     inputs[[1, 3]] = np.nan  # the pose between them has no line to it

@@ -91,6 +91,7 @@ def test_a_screw_beside_a_rod_that_spins_does_not_repeat():
     assert lock[-1] < -4 * np.pi
 
 
+@pytest.mark.long
 def test_a_rack_behind_a_crank_beside_a_rod_that_spins_ends_it():
     """The crank turns on and on, and the rack with it to the ends of its way."""
     mechanism, room = drawn_at_random(10)

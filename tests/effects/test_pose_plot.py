@@ -58,6 +58,7 @@ def test_of_many_lines_the_largest_are_named_and_told_apart(drawn):
     assert len(grey) == 28 and all(line.get_zorder() < handles[0].get_zorder() for line in grey)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("letters", [4, 35, 90, 400])
 def test_legends_of_long_names_are_within_the_picture(letters, drawn):
     """Joints of CAD systems have names of two parts each; the end of a name tells its coordinates apart."""

@@ -135,6 +135,7 @@ def test_a_pose_that_is_assembled_beyond_a_limit_is_told():
     assert found.reached.all() and "beyond" not in str(found)
 
 
+@pytest.mark.long
 def test_a_map_begins_at_whichever_node_beside_the_assembled_pose_it_can_get_to():
     """A five-bar that is stretched but for 4e-4: the node nearest to 0 is beyond that, and the three around it are not.
 

@@ -46,6 +46,8 @@ def test_throw_raises_the_same():
 @pytest.mark.long
 def test_traced_statuses_cannot_be_looked_at():
     mechanism = planar_fourbar(1.0)
-    with pytest.raises(ValueError, match=r"JAX traces here: inside jit, vmap and grad write throw=False and read the status"):
+    with pytest.raises(
+        ValueError, match=r"JAX traces here: inside jit, vmap and grad write throw=False and read the status"
+    ):
         jax.jit(lambda turn: mechanism.sweep({"A": turn}, throw=True).status)(RANGE)
     assert jax.jit(lambda turn: mechanism.sweep({"A": turn}))(RANGE).check().closed.all()

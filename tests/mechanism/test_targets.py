@@ -121,6 +121,7 @@ def test_poses_beside_one_without_numbers_are_checked():
         with_targets(fivebar(), {jk.orientation("b"): poses})
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("geometry", [False, True])
 def test_traced_poses_that_are_not_rigid_or_leave_the_plane_are_no_numbers(geometry):
     """Known ones are refused, and only the plane of a traced geometry is not known."""

@@ -1,6 +1,7 @@
 """A drive that turns many times before it locks: a turn less is another pose."""
 
 import numpy as np
+import pytest
 
 import jaxkin as jk
 from jaxkin.solve.status import Status
@@ -9,6 +10,7 @@ Z, X = (0.0, 0.0, 1.0), (1.0, 0.0, 0.0)
 PITCH = 0.1
 
 
+@pytest.mark.long
 def test_a_nut_does_not_jump_its_thread_where_the_linkage_locks():
     """Its nut pulls a dyad of bars sqrt(0.72) and sqrt(0.73) long, from (0.3 + advance, 0.2) to (1.2, 0).
 

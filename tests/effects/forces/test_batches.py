@@ -59,6 +59,7 @@ def test_batches_of_loads_also_of_as_many_as_poses(load, count):
     jk.drive_forces(motion, applied=[steady, first(batch)], rates={"A": 1.0})
 
 
+@pytest.mark.long
 def test_batches_of_motions():
     mechanism, inputs = fourbar(), jnp.linspace(0.0, 1.0, 4)
     batch = jax.vmap(lambda scale: mechanism.sweep({"A": scale * inputs}))(SCALES)

@@ -220,6 +220,7 @@ def test_loads_that_are_none_are_told(applied, told):
         jk.equilibrium(pendulum(), {"A": np.linspace(-3.0, 3.0, 25)}, own, applied=applied)
 
 
+@pytest.mark.long
 def test_poses_of_which_nothing_is_known_are_told():
     """A rocker asked over its full turn moves over a part of it only: of the rest no equilibrium is denied."""
     mechanism = planar_fourbar()

@@ -1,12 +1,14 @@
 """Freedoms that are idle but for a misfit: what holds them is small, and so is what they add to the reactions."""
 
 import numpy as np
+import pytest
 
 import jaxkin as jk
 from reference.higher_pairs import disc_profile
 from reference.mechanisms import Z
 
 
+@pytest.mark.long
 def test_a_roller_whose_hinge_misses_its_centre_by_rounding():
     """A profile through points of a circle is off it: the roller was moved by 5e-6 mm, and its hinge was not."""
     centre = (8 + 31 * 0.6, 31 * 0.8, 0.0)

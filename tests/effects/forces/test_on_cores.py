@@ -33,6 +33,7 @@ def _rates(motion: jk.Motion, masses: jk.Masses) -> tuple:
     return tuple(jax.tree.leaves(jk.jerks(motion, {"A": np.linspace(1, 2, POSES)}).orders))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("of_motion", "calls"), [(_forces, 3), (_rates, 1)])
 def test_what_shards_give_is_that_of_all_poses(motion, masses, monkeypatch, of_motion, calls):
     whole = of_motion(motion, masses)

@@ -131,6 +131,7 @@ def test_links_that_lie_side_by_side():
     np.testing.assert_allclose(np.sin(found.angle), np.abs(np.sin(at.rocker - at.coupler)), rtol=1e-6)
 
 
+@pytest.mark.long
 def test_poses_of_which_nothing_is_known_are_told():
     motion = fourbar().sweep({"A": np.array([0.0, np.nan, 0.5])})
     found = jk.transmission(motion, "D")
