@@ -45,7 +45,7 @@ def with_doubts(mechanism: Mechanism, bearings: Collection[str]) -> Mechanism:
 
 def any_has_play(mechanism: Mechanism) -> bool:
     """Tell whether some joint of a drawing has play: its author draws play where parts move."""
-    return any(_has_play(joint.evidence) for joint in mechanism.all_joints)
+    return any(has_play(joint.evidence) for joint in mechanism.all_joints)
 
 
 def _may_be_none(mechanism: Mechanism, joint: Joint, bearings: Collection[str]) -> bool:
@@ -59,9 +59,10 @@ def _may_be_none(mechanism: Mechanism, joint: Joint, bearings: Collection[str]) 
             each.misfit <= MAX_FIT * min(size((solids[part],)) for part in each.parts)
             for each in mechanism.contacts[joint.name]
         )
-    return evidence.kind is EvidenceKind.CLEARANCE and "clearance" in dict(evidence.sizes) and not _has_play(evidence)
+    return evidence.kind is EvidenceKind.CLEARANCE and "clearance" in dict(evidence.sizes) and not has_play(evidence)
 
 
-def _has_play(evidence: Evidence | None) -> bool:
+def has_play(evidence: Evidence | None) -> bool:
+    """Tell whether the evidence of a joint is a pin in a wider hole."""
     sizes = {} if evidence is None or evidence.kind is not EvidenceKind.CLEARANCE else dict(evidence.sizes)
     return "clearance" in sizes and sizes["clearance"] > MAX_FIT * sizes["radius"]

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from jaxkin.assembly.exact_fits import MAX_FIT
+from jaxkin.assembly.exact_fits import has_play
 from jaxkin.assembly.hinge_bores import pins_of
 from jaxkin.assembly.inference.measured import Measured
 from jaxkin.assembly.inference.meshing_wheels import outer_teeth
@@ -55,7 +55,7 @@ def _has_work(part: str, hinge: Joint, measured: Measured) -> bool:
         return False
     if hinge.evidence.kind is EvidenceKind.ENCLOSED:
         return any(each.part in hinge.parts for each in measured.steppers)
-    if not _has_play(hinge):
+    if not has_play(hinge.evidence):
         return False
     pose = np.asarray(hinge.frames_1, float)[0]
     solid = next(each for each in measured.parts if each.name == part)
@@ -63,15 +63,7 @@ def _has_work(part: str, hinge: Joint, measured: Measured) -> bool:
     return is_shaft or outer_teeth(solid, pose[:3, 3], pose[:3, 2]) is not None
 
 
-def _has_play(hinge: Joint) -> bool:
-    """Tell whether a hinge is inferred of a pin in a wider hole."""
-    if hinge.evidence is None or hinge.evidence.kind is not EvidenceKind.CLEARANCE:
-        return False
-    sizes = dict(hinge.evidence.sizes)
-    return sizes.get("clearance", 0.0) > MAX_FIT * sizes["radius"]
-
-
 def _is_kept_with_play(hinge: Joint) -> bool:
     """Tell whether a hinge with play has faces on both sides that keep it."""
     doubt = hinge.evidence.doubt if hinge.evidence else None
-    return _has_play(hinge) and (doubt is None or doubt.seen is Certainty.NEAR_LIMIT)
+    return has_play(hinge.evidence) and (doubt is None or doubt.seen is Certainty.NEAR_LIMIT)

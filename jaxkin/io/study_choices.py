@@ -146,7 +146,7 @@ def _exclude(name: str, kind: str, parts: Sequence[Part], solids: Sequence[Part]
     names."""
     names = [part.name for part in parts]
     pattern = f"{name}*"
-    across = max(float(np.linalg.norm(np.ptp(part.box, axis=0))) for part in parts)
+    across = max(part.extent for part in parts)
     shown = toml(pattern) if len(names) > 1 and _means(pattern, solids, names) else ", ".join(map(toml, names))
     return f"  # {shown},  # {len(names)} {'part' if len(names) == 1 else 'parts'}, {across:.3g} across: {kind}"
 

@@ -9,7 +9,7 @@
 - A shaft between two universal joints, with bearings in two different parts, has an idle motion by its joints alone.
 
 All this follows from the twists that joints allow, and does not depend on a basis of the motions, nor on names or the
-order of joints.
+order of joints. Of two bodies that hold each other alike the first in the order of the parts counts as idle.
 """
 
 from __future__ import annotations

@@ -76,7 +76,7 @@ def default_marks(mechanism: Mechanism, parts: Sequence[Part], view: View, displ
             continue
         point, distance = _farthest(part, np.array(ends[part.name]).reshape(-1, 3), flat)
         path = move(displacements, part.name, point) @ flat
-        if distance > NEAR_JOINT * np.linalg.norm(np.ptp(part.box, axis=0)) and _extent(path) > SAME_PATH * size:
+        if distance > NEAR_JOINT * part.extent and _extent(path) > SAME_PATH * size:
             marks.append((part.name, point))
             paths.append(path)
     longest = np.argsort([-np.linalg.norm(np.diff(path, axis=0), axis=1).sum() for path in paths], kind="stable")

@@ -112,7 +112,7 @@ def _wheel(parts: Sequence[Part], point: Vector, axis: Vector) -> _Wheel | None:
 
 def _largest(parts: Sequence[Part]) -> str:
     """Name the largest of some parts, by its bounding box."""
-    return max(parts, key=lambda part: float(np.linalg.norm(np.ptp(part.box, axis=0)))).name
+    return max(parts, key=lambda part: part.extent).name
 
 
 def _is_tread(face: Face, point: Vector, axis: Vector) -> bool:
