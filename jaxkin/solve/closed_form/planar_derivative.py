@@ -127,10 +127,10 @@ def _twists(
     by.append(rotation)
     changes = [planar_place(system, d_axes, row, chain) for row in moving_rows(system, chain)]
     changes.append(Complex(*d_axes.open_shift[chain]))
-    # one product of matrices adds up all; so its transpose does with the poses
-    parts = jnp.stack([jnp.stack(row) for each in by for row in (each, (-each.imag, each.real))])
-    numbers = jnp.stack([jnp.asarray(part) for change in changes for part in change])
-    velocity = jnp.tensordot(numbers, parts, 1)
+    # complex products as those of real matrices: one product adds up all, and so its transpose does with the poses
+    parts = jnp.stack([number for each in by for number in each])
+    numbers = [jnp.stack([jnp.stack([x, -y]), jnp.stack([y, x])]) for x, y in changes]
+    velocity = jnp.concatenate(numbers, axis=1) @ parts
     return _Chain(screws, cos * d_sin - sin * d_cos, Complex(velocity[0], velocity[1]))
 
 
