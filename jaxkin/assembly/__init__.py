@@ -15,5 +15,6 @@ The route is told on the page "Architecture". What the modules do on it:
 | notes for the user | `near_misses`, `caps`, `undrawn_shafts` |
 
 Asked for by users, of an assembly or a mechanism: what to fix and drive (`proposals`, `wheels`), which contacts lock it
-(`blocking_contacts`), and gears (`gears`, `gear_proposal`, `toothed_parts`, `racks`).
+(`blocking_contacts`), which inferences do (`taken_back`), and gears (`gears`, `gear_proposal`, `toothed_parts`,
+`racks`).
 """

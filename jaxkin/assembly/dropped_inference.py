@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from jaxkin.assembly.assembly import Assembly
     from jaxkin.mechanism.mechanism import Mechanism
 
-_KEPT = (EvidenceKind.NEAREST, EvidenceKind.BOLT_PATTERN)
+KEPT = (EvidenceKind.NEAREST, EvidenceKind.BOLT_PATTERN)
 """Inferences that are not dropped so that something moves: without the first their parts would be tied to nothing, and
 plates that are bolted together do not move."""
 TOLD = "inferred beside exact contacts"
@@ -47,7 +47,7 @@ def without_weakest(
     """
     movable, without_it = None, None
     spinning = {each.name for each in locked.linkage.spinning}
-    droppable = [each for each in reversed(found) if each.evidence.kind not in _KEPT]
+    droppable = [each for each in reversed(found) if each.evidence.kind not in KEPT]
     for dropping in droppable[:_TRIED]:
         fewer = [each for each in found if each is not dropping]
         if _leaves_loose(assembly, contacts, options, fewer):

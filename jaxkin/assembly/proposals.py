@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from jaxkin.assembly.taken_back import taken_back
 from jaxkin.assembly.wheels import wheels_last, wheels_of
 from jaxkin.geometry.part import Part, heaviest
 from jaxkin.joints.evidence import Evidence, EvidenceKind
@@ -23,6 +24,8 @@ assembly that a person drew is among its largest or best connected bodies."""
 MIN_MOVING = 0.5
 """Joints that move with several fixed parts over those that move with one, at least: brackets on a wall close loops and
 leave most joints moving (lift table: all of 7), the fixed ends of a machine with tools and wheels leave one of 8."""
+UNLOCKED = 5
+"""Proposals at most that take back an inference."""
 _TOLD = 5
 """Coordinates that a proposal tells: without a fixed frame an assembly of 175 parts has 18 of them, a screen full."""
 
@@ -44,13 +47,19 @@ class Proposal:
     """Why nothing can be driven; empty where something can."""
     wheels: tuple[str, ...] = ()
     """Those of `drive` that only turn a wheel or a roller, which moves nothing else; they come last in it."""
+    ignore: tuple[tuple[str, str], ...] = ()
+    """Pairs of parts of which something was inferred that is to be taken back, as in `mechanism(ignore=...)`."""
 
     def __str__(self) -> str:
         return self.told(())
 
     def told(self, others: Sequence[Proposal]) -> str:
         """Tell the proposal in one line, with the parts of `others` that have the same effect."""
-        lines = f"fixed = {list(self.fixed)!r}" + "".join(f" or {list(each.fixed)!r}" for each in others)
+        if self.ignore:
+            told = " or ".join(repr([list(pair) for pair in each.ignore]) for each in (self, *others))
+            lines = f"fixed = {list(self.fixed)!r} and ignore = {told}"
+        else:
+            lines = f"fixed = {list(self.fixed)!r}" + "".join(f" or {list(each.fixed)!r}" for each in others)
         if self.problem:
             return f"with {lines}: {self.problem}"
         count = "one freedom" if self.freedoms == 1 else f"{self.freedoms} freedoms"
@@ -66,7 +75,7 @@ def grouped(found: Sequence[Proposal]) -> list[str]:
     """Tell proposals, those of the same effect in one line, each where the first of them comes."""
     alike: dict[tuple, list[Proposal]] = {}
     for each in found:
-        effect = (each.drive, each.freedoms, each.bodies, each.moving, each.problem)
+        effect = (each.drive, each.freedoms, each.bodies, each.moving, each.problem, each.ignore and each.fixed)
         alike.setdefault(effect, []).append(each)
     return [first.told(others) for first, *others in alike.values()]
 
@@ -86,12 +95,18 @@ def proposals(
     Of choices that are alike otherwise the heaviest body is fixed: frames weigh more than what they carry.
     Several fixed parts come after single ones unless they leave one freedom, and most of what moves with one: others
     are no brackets on a wall, but what the machine moves, as the hook and the wheels of a crane.
+    Where nothing can move, inferences are taken back in turn: see `unlocked`.
     `progress(done, total)` is called after each choice that was tried, where `fixed` leaves several.
 
     Raises ValueError for names that do not exist, and for an assembly without parts.
     """
+
+    def ignoring(fixed: Sequence[str]) -> Callable[[tuple[str, str]], Mechanism]:
+        return lambda pair: assembly.mechanism(fixed=fixed, ignore=[pair])
+
     if fixed is not None:
-        return (_tried(assembly.mechanism(fixed=fixed), fixed, drive),)
+        mechanism = assembly.mechanism(fixed=fixed)
+        return (_tried(mechanism, fixed, drive), *unlocked(mechanism, ignoring(fixed), fixed, drive))
     solids = {part.name: part for part in assembly.parts}
     if not solids:
         raise ValueError(f"{assembly.source}: there are no parts, and nothing to fix")
@@ -107,16 +122,19 @@ def proposals(
         found.append(_tried(assembly.mechanism(fixed=choice), choice, drive))
         if progress:
             progress(done, 1 + len(choices))
+    if found[0].problem:
+        found += unlocked(mechanism, ignoring([base]), [base], drive)
     most = max(each.moving for each in found if len(each.fixed) == 1)
 
     owner = body_of_parts(mechanism.bodies)
 
-    def rank(each: Proposal) -> tuple[bool, bool, int, int, int, float]:
+    def rank(each: Proposal) -> tuple[bool, bool, bool, int, int, int, float]:
         # wheels alone are as good as one freedom, and no better than one beside them
         several, useful = len(each.fixed) > 1, max(1, each.freedoms - len(each.wheels))
         stills = several and (useful > 1 or each.moving < MIN_MOVING * most)
         weight = sum(abs(solids[part].volume) for part in mechanism.bodies[owner[each.fixed[0]]])
-        return bool(each.problem) or not each.moving, stills, useful, len(each.fixed), -each.moving, -weight
+        still = bool(each.problem) or not each.moving
+        return still, bool(each.ignore), stills, useful, len(each.fixed), -each.moving, -weight
 
     return tuple(sorted(found, key=rank))
 
@@ -186,6 +204,24 @@ def _tried(mechanism: Mechanism, choice: Sequence[str], drive: Sequence[str] | N
         return Proposal(fixed, (), mobility.useful, bodies, 0, "; ".join(plan.notes))
     wheels = tuple(name for name in driven if name in turning)
     return Proposal(fixed, driven, mobility.useful, bodies, _moved(mechanism), wheels=wheels)
+
+
+def unlocked(
+    mechanism: Mechanism,
+    without: Callable[[tuple[str, str]], Mechanism],
+    fixed: Sequence[str],
+    drive: Sequence[str] | None = None,
+) -> list[Proposal]:
+    """Find what takes back an inference of a mechanism in which nothing can move, so that something can: at most
+    `UNLOCKED`, one freedom before several.
+
+    `without` makes the mechanism that ignores what is between two parts.
+    """
+    if opening(mechanism.linkage, mechanism.unit) is not None or mechanism.mobility().useful:
+        return []
+    found = [replace(_tried(other, fixed, drive), ignore=(pair,)) for pair, other in taken_back(mechanism, without)]
+    moving = [each for each in found if not each.problem]
+    return sorted(moving, key=lambda each: (each.freedoms, -each.moving))[:UNLOCKED]
 
 
 def _moved(mechanism: Mechanism) -> int:

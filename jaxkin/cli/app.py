@@ -111,6 +111,8 @@ def inspect(
             if study.assembly and not study.held:
                 study, tried = run.proposed(study, study.assembly)
             report.print_mechanism(study.mechanism, contacts, verbose)
+            if not tried:
+                run.unlock(study)
             report.print_near_misses(contacts, study.mechanism, verbose)
             report.print_gears(study.mechanism, verbose)
         except ValueError as refusal:

@@ -166,7 +166,21 @@ def proposed(study: Study, assembly: Assembly) -> tuple[Study, tuple[Proposal, .
     for line in grouped(found):
         report.say(f"  {line}")
     report.say()
-    return replace(study, fixed=found[0].fixed), found
+    return replace(study, fixed=found[0].fixed, ignore=[*study.ignore, *found[0].ignore]), found
+
+
+def unlock(study: Study) -> None:
+    """Print what takes back an inference of a study in which nothing can move, so that something can."""
+    from jaxkin.assembly.proposals import grouped, unlocked
+    from jaxkin.cli import report
+
+    if not (study.assembly and study.infer and study.detect and study.combine) or study.by_export:
+        return
+    found = unlocked(study.mechanism, lambda pair: replace(study, ignore=[*study.ignore, pair]).mechanism, study.fixed)
+    if found:
+        report.say("\nInferences were taken back in turn:")
+        for line in grouped(found):
+            report.say(f"  {line}")
 
 
 def check_fixed(study: Study) -> None:

@@ -85,7 +85,7 @@ class _Tried:
 def _other_fixed(tried: _Tried, proposals: Sequence[Proposal]) -> list[str]:
     lines = []
     for each in proposals:
-        if set(each.fixed) == set(tried.fixed):
+        if set(each.fixed) == set(tried.fixed) or each.ignore:  # the joints of a study are written out
             continue
         mechanism = tried.with_fixed(each.fixed)
         driven = () if opening(mechanism.linkage, mechanism.unit) is not None else mechanism.mobility().drivable

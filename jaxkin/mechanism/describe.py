@@ -142,7 +142,10 @@ def _what_makes_it_one(mechanism: Mechanism) -> str:
     if not inferred:
         return " Its file has them so: see the notes." if EvidenceKind.EXPORT in kinds else ""
     count = f"{counted(len(inferred), 'inference')} {'makes' if len(inferred) == 1 else 'make'} it so"
-    return f" {count}: see the notes. ignore=[(part, part)] takes back that of two parts, infer=False all."
+    return (
+        f" {count}: see the notes. ignore=[(part, part)] takes back that of two parts, infer=False all; "
+        "assembly.proposals(fixed=...) tries which of them frees something."
+    )
 
 
 def _why_it_cannot_move(mechanism: Mechanism, freedoms: int) -> list[str]:
@@ -154,7 +157,9 @@ def _why_it_cannot_move(mechanism: Mechanism, freedoms: int) -> list[str]:
     if not ways:
         if not mechanism.contacts:
             return [said if freedoms else f"{said} No single joint is the reason."]
-        return [f"{said} No single contact is the reason, nor are several between the same two parts."]
+        inferred = any(each.evidence.kind not in (EvidenceKind.USER, EvidenceKind.EXPORT) for each in mechanism.bonds)
+        which = " assembly.proposals(fixed=...) tries which inference is." if inferred else ""
+        return [f"{said} No single contact is the reason, nor are several between the same two parts.{which}"]
     how = " (leave a contact out with ignore=)" if mechanism.contacts else ""
     return [f"{said} It could without one of these{how}:", *(f"  {way}" for way in ways)]
 

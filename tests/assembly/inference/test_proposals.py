@@ -5,8 +5,11 @@ from itertools import pairwise
 import pytest
 
 import jaxkin as jk
+from jaxkin.assembly import dropped_inference
 from jaxkin.assembly.proposals import grouped
+from jaxkin.cli.run import unlock
 from jaxkin.examples import path
+from jaxkin.io.study import Study
 from reference.round_parts import assembly, block, part, pin, ring
 
 
@@ -105,3 +108,46 @@ def test_the_longest_part_of_a_body_is_not_fixed_where_it_is_a_screw():
     found = assembly(*screws, *nuts, base, plate, lever).proposals()
     assert found[0].fixed == ("base",) and found[0].freedoms == 1
     assert not {name for each in found for name in each.fixed} & {each.name for each in screws}
+
+
+@pytest.fixture
+def clamped(monkeypatch):
+    """A bracket under the head of a screw. Trials would drop the one inference that locks it: without them it stays
+    locked, as a machine does that several inferences lock."""
+    monkeypatch.setattr(dropped_inference, "_TRIED", 0)
+    base = part("base", block((-80, -80, -30), (80, 80, -20)), ring(2.5, 9.0, -20, 0))
+    bracket = part("bracket", ring(2.75, 9.0, 0, 6), block((8, -4, 0), (40, 4, 6)))
+    return assembly(base, bracket, part("screw", pin(2.5, -10, 6), pin(4.5, 6, 11)))
+
+
+def test_where_nothing_can_move_inferences_are_taken_back_in_turn(clamped):
+    locked, *others = clamped.proposals(fixed=["base"])
+    assert locked.problem and not locked.ignore
+    assert others and all(each.ignore and not each.problem for each in others)
+    for each in others:
+        mechanism = clamped.mechanism(fixed=each.fixed, ignore=each.ignore)
+        assert mechanism.mobility().useful == each.freedoms > 0
+        assert not mechanism.plan(each.drive).notes
+    assert "and ignore = [['" in str(others[0])
+    assert "assembly.proposals(fixed=...) tries" in str(clamped.mechanism(fixed=["base"]))
+
+
+def test_inspection_prints_what_takes_an_inference_back(clamped, capsys):
+    unlock(Study("bracket.step", clamped, fixed=["base"]))
+    told = capsys.readouterr().out
+    assert "Inferences were taken back in turn:" in told and "and ignore = [['" in told
+    unlock(Study("bracket.step", clamped, fixed=["base"], infer=False))
+    assert not capsys.readouterr().out
+
+
+def test_what_takes_an_inference_back_comes_before_what_cannot_move(clamped):
+    found = clamped.proposals()
+    assert not found[0].problem and found[0].ignore
+    assert [bool(each.problem) for each in found] == sorted(bool(each.problem) for each in found)
+
+
+def test_nothing_is_taken_back_where_something_moves():
+    base = part("base", block((-60, -60, -60), (60, -30, 0)), pin(5.0, -30, 10), pin(9.0, 10, 12), pin(9.0, -12, 0))
+    lever = part("lever", ring(5.0, 9.0, 0, 10), block((8, -4, 0), (60, 4, 10)))
+    found = assembly(base, lever).proposals(fixed=["base"])
+    assert len(found) == 1 and found[0].freedoms == 1
