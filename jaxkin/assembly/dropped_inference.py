@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 KEPT = (EvidenceKind.NEAREST, EvidenceKind.BOLT_PATTERN)
 """Inferences that are not dropped so that something moves: without the first their parts would be tied to nothing, and
 plates that are bolted together do not move."""
+DROPPED = "not inferred, since nothing could move with it"
+"""How the note begins that tells an inference which was dropped."""
 TOLD = "inferred beside exact contacts"
 """How the note begins that counts inferences."""
 _TRIED = 12
@@ -65,7 +67,7 @@ def without_weakest(
 
 def with_note_of_dropped(dropped: Inference, mechanism: Mechanism) -> Mechanism:
     """Tell of a mechanism that an inference was dropped."""
-    note = f"not inferred, since nothing could move with it: {dropped}"
+    note = f"{DROPPED}: {dropped}"
     return replace(mechanism, history=(note, *mechanism.history))
 
 

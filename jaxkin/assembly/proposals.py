@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from jaxkin.assembly.dropped_inference import DROPPED
 from jaxkin.assembly.taken_back import taken_back
 from jaxkin.assembly.wheels import wheels_last, wheels_of
 from jaxkin.geometry.part import Part, heaviest
@@ -119,7 +120,9 @@ def proposals(
     choices = [[part] for part in others[: TRIED - 1]] + _with_ends(mechanism, solids)
     found = []
     for done, choice in enumerate(([base], *choices), start=1):
-        found.append(_tried(assembly.mechanism(fixed=choice), choice, drive))
+        made = assembly.mechanism(fixed=choice)
+        if len(choice) == 1 or not any(note.startswith(DROPPED) for note in made.history):
+            found.append(_tried(made, choice, drive))  # else the ends are none: fixed, they lock what moves
         if progress:
             progress(done, 1 + len(choices))
     if found[0].problem:

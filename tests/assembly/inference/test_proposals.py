@@ -1,11 +1,14 @@
 """What may be fixed and driven, found by trying."""
 
+from dataclasses import replace
 from itertools import pairwise
 
 import pytest
 
 import jaxkin as jk
 from jaxkin.assembly import dropped_inference
+from jaxkin.assembly.assembly import Assembly
+from jaxkin.assembly.dropped_inference import DROPPED
 from jaxkin.assembly.proposals import grouped
 from jaxkin.cli.run import unlock
 from jaxkin.examples import path
@@ -76,8 +79,9 @@ def test_several_fixed_parts_that_still_most_of_what_moves_come_after_single_one
     assert several.freedoms < found[0].freedoms  # it would come first by its freedoms
 
 
-def test_the_ends_of_an_open_chain_are_no_brackets_on_a_wall():
-    """Fixed at both ends, five hinges in a row leave fewer freedoms, and all of them move."""
+@pytest.fixture
+def chain():
+    """Five links in a row on a base."""
     places = [(0.0, 0.0), (30.0, 40.0), (80.0, 30.0), (120.0, 70.0), (160.0, 20.0), (190.0, 60.0)]
     base = part("base", block((-60, -60, -40), (60, 60, -20)), pin(5.0, -20, 10))
     links = []
@@ -86,10 +90,27 @@ def test_the_ends_of_an_open_chain_are_no_brackets_on_a_wall():
         eye, low_corner, high_corner = ring(5.0, 9.0, low, low + 10, one), min(one, other), max(one, other)
         bar = block((low_corner[0] + 8, low_corner[1] - 2, low), (high_corner[0] - 8, low_corner[1] + 2, low + 10))
         links.append(part(f"link {k}", eye, bar, pin(5.0, low, low + 20, other)))
-    found = assembly(base, *links).proposals()
+    return assembly(base, *links)
+
+
+def test_the_ends_of_an_open_chain_are_no_brackets_on_a_wall(chain):
+    """Fixed at both ends, five hinges in a row leave fewer freedoms, and all of them move."""
+    found = chain.proposals()
     assert found[0].fixed == ("base",)
     several = next(each for each in found if len(each.fixed) > 1)
     assert 1 < several.freedoms < found[0].freedoms and several.moving == found[0].moving  # it came first by both
+
+
+def test_ends_that_lock_what_moves_are_not_proposed_to_be_fixed(chain, monkeypatch):
+    """As those of a Hooke's joint: a pin of its cross would turn instead, after what holds it was dropped."""
+    make = Assembly.mechanism
+
+    def dropping(self, fixed, **options):
+        made = make(self, fixed=fixed, **options)
+        return replace(made, history=(f"{DROPPED}: a pin", *made.history)) if len(fixed) > 1 else made
+
+    monkeypatch.setattr(Assembly, "mechanism", dropping)
+    assert all(len(each.fixed) == 1 for each in chain.proposals())
 
 
 def test_the_longest_part_of_a_body_is_not_fixed_where_it_is_a_screw():
