@@ -42,7 +42,7 @@ def frame(origin: Vector, z: Vector, x: Vector | None = None) -> Transform:
     z = unit(z)
     x = perpendicular(z) if x is None else unit(np.asarray(x, float) - (np.asarray(x, float) @ z) * z)
     pose = np.eye(4)
-    pose[:3, 0], pose[:3, 1], pose[:3, 2], pose[:3, 3] = x, np.cross(z, x), z, origin
+    pose[:3, 0], pose[:3, 1], pose[:3, 2], pose[:3, 3] = x, cross(z, x), z, origin
     return pose
 
 

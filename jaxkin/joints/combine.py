@@ -21,7 +21,7 @@ from jaxtyping import Float
 
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.movements import MOVEMENTS, Movement
-from jaxkin.geometry.pose import Transform, Vector, frame, skew
+from jaxkin.geometry.pose import Transform, Vector, cross, frame, skew
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.regularise import Noise, movements
 from jaxkin.joints.screws import Screws, complement, freedoms, misfit
@@ -147,5 +147,5 @@ def _candidate(twists: Screws, frames: np.ndarray, tolerance: float) -> tuple[Jo
         crosses = np.vstack([-skew(w) for w in turns[:3].T])
         point = np.linalg.lstsq(crosses, turns[3:].T.ravel(), rcond=tolerance)[0]
         origin = point + z * ((origin - point) @ z) if "axis" in aligned else point
-    parallel = [pose for pose in frames if np.linalg.norm(np.cross(pose[:3, 2], z)) <= tolerance]
+    parallel = [pose for pose in frames if np.linalg.norm(cross(pose[:3, 2], z)) <= tolerance]
     return kind, movement, frame(origin, parallel[0][:3, 2], parallel[0][:3, 0]) if parallel else frame(origin, z)

@@ -16,7 +16,7 @@ from jaxtyping import Float
 
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.movements import MOVEMENTS, symmetry_of
-from jaxkin.geometry.pose import frame
+from jaxkin.geometry.pose import cross, frame
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere, Surface
 from jaxkin.joints.axes import align_positions
 from jaxkin.joints.directions import align_directions
@@ -122,7 +122,7 @@ def align(movements: Sequence[str], frames: Frames, noise: Noise) -> tuple[Frame
         # the columns are set one by one: normalising z again could change its last bit
         x = frames[k, :3, 0] - (frames[k, :3, 0] @ z[k]) * z[k]
         x /= np.linalg.norm(x)
-        aligned[k, :3, :3] = np.stack([x, np.cross(z[k], x), z[k]], axis=1)
+        aligned[k, :3, :3] = np.stack([x, cross(z[k], x), z[k]], axis=1)
     aligned[:, :3, 3] = origin
     angle = np.linalg.norm(z - frames[:, :3, 2], axis=1).max(initial=0.0)
     length = np.linalg.norm(origin - frames[:, :3, 3], axis=1).max(initial=0.0)

@@ -25,7 +25,7 @@ from jaxkin._traced import traced
 from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.partial_movement import remaining
-from jaxkin.geometry.pose import frame
+from jaxkin.geometry.pose import cross, frame
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.screws import DEPENDENT
 from jaxkin.linkage.first_order import null_space
@@ -71,7 +71,7 @@ def _directions(turning: ElementaryAxes) -> Iterator[np.ndarray]:
     found: list[tuple[np.ndarray, int]] = []
     for _, axis, _ in turning:
         for place, (known, count) in enumerate(found):
-            if np.linalg.norm(np.cross(known, axis)) <= ALIGNED:
+            if np.linalg.norm(cross(known, axis)) <= ALIGNED:
                 found[place] = known, count + 1
                 break
         else:
@@ -85,7 +85,7 @@ def _acting_in_plane(axes: tuple[ElementaryAxes, ElementaryAxes], normal: np.nda
     for slides, entries in zip((False, True), axes, strict=True):
         for column, *both in entries:
             perpendicular = all(abs(axis @ normal) <= ALIGNED for axis in both)
-            parallel = all(np.linalg.norm(np.cross(axis, normal)) <= ALIGNED for axis in both)
+            parallel = all(np.linalg.norm(cross(axis, normal)) <= ALIGNED for axis in both)
             if not (perpendicular or parallel):
                 return None
             if perpendicular if slides else parallel:

@@ -26,7 +26,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.movements import MOVEMENTS
-from jaxkin.geometry.pose import Vector
+from jaxkin.geometry.pose import Vector, cross
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.planes import ALIGNED
 from jaxkin.topology.components import connected
@@ -227,7 +227,7 @@ def _axes(number: int, joint: Joint, of_balls: Vector | None = None) -> list[Axi
 
 
 def _parallel(one: Vector, other: Vector) -> bool:
-    return bool(np.linalg.norm(np.cross(one, other)) <= ALIGNED)
+    return bool(np.linalg.norm(cross(one, other)) <= ALIGNED)
 
 
 def _links(axes: Sequence[Axis]) -> tuple[Link, ...]:

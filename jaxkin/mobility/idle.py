@@ -21,6 +21,7 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin.geometry.pose import skew
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.body_graph import BodyGraph, Constraints, Twists
 from jaxkin.mobility.loop_freedoms import LoopFreedoms
@@ -255,7 +256,7 @@ class IdleMotions:
 
 def _centre(twists: Twists, noise: float) -> Float[np.ndarray, "3"] | None:
     """Find the one point about which all these twists turn; None where there is no such point or more than one."""
-    cross = np.concatenate([np.zeros((0, 3)), *(np.cross(np.eye(3), w).T for w in twists[:3].T)])
+    cross = np.concatenate([np.zeros((0, 3)), *(-skew(w) for w in twists[:3].T)])
     if np.linalg.matrix_rank(cross, tol=noise) < 3:
         return None
     velocities = twists[3:].T.ravel()
@@ -267,8 +268,8 @@ def _bracket(twists: Twists) -> Constraints:
     """Compute the constraints on a twist that carries these twists into themselves: their Lie brackets vanish."""
     rows = np.zeros((twists.shape[1], 6, 6))
     for block, w, v in zip(rows, twists[:3].T, twists[3:].T, strict=True):
-        block[:3, :3] = block[3:, 3:] = np.cross(np.eye(3), w)
-        block[3:, :3] = np.cross(np.eye(3), v)
+        block[:3, :3] = block[3:, 3:] = skew(w)
+        block[3:, :3] = skew(v)
     return rows.reshape(-1, 6)
 
 

@@ -10,7 +10,7 @@ from jaxtyping import Float
 
 from jaxkin.geometry.outline import widest_gap
 from jaxkin.geometry.part import Face, Part
-from jaxkin.geometry.pose import Vector
+from jaxkin.geometry.pose import Vector, cross
 from jaxkin.geometry.surfaces import Cylinder
 
 SAME_ANGLE = 1e-4
@@ -61,7 +61,7 @@ class Bore:
         offset = self.point - other.point
         if np.linalg.norm(offset - (offset @ other.axis) * other.axis) > length * other.radius:
             return False  # before the costlier cross product
-        return bool(np.linalg.norm(np.cross(self.axis, other.axis)) <= angle)
+        return bool(np.linalg.norm(cross(self.axis, other.axis)) <= angle)
 
     def reach(self, along: Vector) -> tuple[float, float]:
         """Find where the bore begins and ends, along a direction that is parallel to its axis."""
@@ -105,7 +105,7 @@ def _same(one: Cylinder, other: Cylinder) -> bool:
     along = float(offset @ one.axis)
     if float(offset @ offset) - along**2 > (SAME_LENGTH * one.radius) ** 2:  # before the costlier cross product
         return False
-    return bool(np.linalg.norm(np.cross(one.axis, other.axis)) <= SAME_ANGLE)
+    return bool(np.linalg.norm(cross(one.axis, other.axis)) <= SAME_ANGLE)
 
 
 def _bore(part: str, surface: Cylinder, faces: Sequence[Face]) -> Bore | None:
