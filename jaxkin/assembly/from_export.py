@@ -72,6 +72,7 @@ def from_export(assembly: Assembly, exported: Exported, options: MechanismOption
     known = Known(assembly._measured, Contacts(()), options.fixed, options.rigid, options.joints)
     constraints = _heeded(exported.constraints, options, notes)
     known.take(_groups(exported, constraints, options))
+    _tell_apart(constraints, notes, noise)
     while known.take(_locked(known, constraints, noise, notes)):
         pass
     joints = _joints(known, constraints, noise, notes, exported.motors, {given.name for given in options.joints})
@@ -153,6 +154,13 @@ def _groups(exported: Exported, constraints: Sequence[Constraint], options: Mech
         *(Inference(group, told) for group in groups),
         *(Inference(each.parts, Evidence(EvidenceKind.EXPORT, (), each.text)) for each in welds),
     ]
+
+
+def _tell_apart(constraints: Sequence[Constraint], notes: list[str], noise: Noise) -> None:
+    """Tell which welds are between frames that do not coincide."""
+    for each in constraints:
+        if each.kind is JointKind.FIXED:
+            _apart([each], notes, noise)
 
 
 def _replaced_notes(known: Known, constraints: Sequence[Constraint], options: MechanismOptions) -> list[str]:
@@ -262,9 +270,11 @@ def _apart(several: Sequence[Constraint], notes: list[str], noise: Noise) -> tup
     if offset <= noise.length and tilt <= noise.angle:
         return ()
     parts = " and ".join(map(repr, several[0].parts))
+    welds = all(each.kind is JointKind.FIXED for each in several)
+    taken = "the two stay where they are" if welds else f"taken as it stands on {several[0].parts[0]!r}"
     notes.append(
         f"{_told(several)} between {parts}: its two sides are {offset:.2g} and {tilt:.2g} rad apart as exported; "
-        f"taken as it stands on {several[0].parts[0]!r}"
+        f"{taken}"
     )
     return (("offset", offset), ("tilt", tilt))
 

@@ -8,7 +8,6 @@ from unicodedata import combining, normalize
 import numpy as np
 
 from jaxkin.assembly.exported import Constraint
-from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.pose import Transform
 from jaxkin.io.export_content import Export, ExportedJoint, ExportedMate
 from jaxkin.io.export_joints import joint_of_kind
@@ -65,6 +64,10 @@ class ConstrainedParts:
         first, second = self.part(one), self.part(other)
         return None if first is None or second is None or first == second else (first, second)
 
+    def is_ground(self, paths: tuple[tuple[str, ...], tuple[str, ...]]) -> bool:
+        """Check whether one of two paths is that of the root, and the other one that of the part that stands in it."""
+        return () in paths and self.world is not None and {self.part(path) for path in paths} == {self.world}
+
     def why_not(self, paths: tuple[tuple[str, ...], tuple[str, ...]]) -> str:
         """Say why two paths are not those of two parts."""
         found = [name for path in paths if (name := self.part(path)) is not None]
@@ -80,35 +83,19 @@ def joints_between(
     result = []
     for each in joints:
         text = f"{each.kind} {each.name!r}"
-        parts = where.parts(each.sides[0].path, each.sides[1].path)
+        paths = each.sides[0].path, each.sides[1].path
+        if where.is_ground(paths):
+            continue
+        parts = where.parts(*paths)
         base, follower = (in_unit(side.frame, metres) for side in each.sides)
         known = joint_of_kind(each.kind, base, follower)
         if parts is None or known is None:
-            paths = each.sides[0].path, each.sides[1].path
             why = where.why_not(paths) if parts is None else "its kind is not known, or not between such frames"
             notes.append(f"{text}: {why}; left out")
             continue
-        first, second = (follower, base) if known.swapped else (base, follower)
         ends = (parts[1], parts[0]) if known.swapped else parts
-        movements = known.chain.movements
-        offset, tilt = _apart(movements[0], first, second) if len(movements) == 1 else (0.0, 0.0)
-        result.append(Constraint(cleaned(each.name), ends, text, known.chain, known.kind, offset, tilt))
+        result.append(Constraint(cleaned(each.name), ends, text, known.chain, known.kind, known.offset, known.tilt))
     return result
-
-
-def _apart(movement: str, base: Transform, follower: Transform) -> tuple[float, float]:
-    """Measure distance and angle by which two frames of a joint differ in what its movement leaves in place."""
-    feature, aligned = MOVEMENTS[movement].feature, MOVEMENTS[movement].aligned
-    offset = follower[:3, 3] - base[:3, 3]
-    along = float(offset @ base[:3, 2])
-    tilt = float(np.linalg.norm(np.cross(base[:3, 2], follower[:3, 2]))) if "direction" in aligned else 0.0
-    if feature is None or not aligned:
-        return 0.0, tilt
-    if feature.kind == "plane":
-        return abs(along), tilt
-    if feature.kind == "axis" and not feature.marked:
-        return float(np.linalg.norm(offset - along * base[:3, 2])) if "axis" in aligned else 0.0, tilt
-    return float(np.linalg.norm(offset)), tilt
 
 
 def mates_between(
@@ -121,14 +108,17 @@ def mates_between(
 def _mate(
     each: ExportedMate, where: ConstrainedParts, metres: float, length: float, notes: list[str]
 ) -> Constraint | None:
-    """Find what a mate between two parts leaves free; None, and a note, where it holds nothing or is not understood.
+    """Find what a mate between two parts leaves free; None, and a note, where it holds nothing or is not understood;
+    None for one that holds what stands in the world anyway.
 
     Features that differ by less than `length`, in the unit of the assembly, count as coincident.
     """
     text = f"{each.kind} {each.name!r}"
-    parts = where.parts(each.sides[0].path, each.sides[1].path)
-    if parts is None:
-        notes.append(f"{text}: {where.why_not((each.sides[0].path, each.sides[1].path))}; left out")
+    paths = each.sides[0].path, each.sides[1].path
+    if where.is_ground(paths):
+        return None
+    if (parts := where.parts(*paths)) is None:
+        notes.append(f"{text}: {where.why_not(paths)}; left out")
         return None
     if each.kind.lower() in RANGES and any(word in _plain(each.name) for word in LIMITS):
         notes.append(

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 
-from jaxkin.geometry.pose import Transform
+from jaxkin.contacts.states import find_state
+from jaxkin.geometry.pose import Transform, inverse
 from jaxkin.joints import pairs
 from jaxkin.joints.combine import LOWER_PAIRS, Chain
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
-from jaxkin.joints.mates import MateFeature, mate
 
 _PAIRS = {str(pair[0]): pair for pair in LOWER_PAIRS.values()}
 _OTHER_NAMES = {
@@ -31,6 +31,19 @@ class ExportedKind(NamedTuple):
     chain: Chain
     swapped: bool = False
     """Whether the chain begins at the follower."""
+    offset: float = 0.0
+    """Distance of the two frames along the directions in which the joint holds them together."""
+    tilt: float = 0.0
+    """Angle between them about the axes about which the joint does not turn, radians."""
+
+
+class _Held(NamedTuple):
+    """What a joint holds of the frame that it ends at, in the one that its chain begins at."""
+
+    places: str
+    """Coordinates of its origin that are zero, of "xyz"."""
+    turns: Literal["none", "axis", "all"] = "none"
+    """Whether z of the two frames is the same, or all axes are."""
 
 
 def joint_of_kind(kind: str, base: Transform, follower: Transform) -> ExportedKind | None:
@@ -43,10 +56,26 @@ def joint_of_kind(kind: str, base: Transform, follower: Transform) -> ExportedKi
     name = "".join(letter for letter in kind.lower() if letter.isalnum()).removesuffix("joint")
     name = _OTHER_NAMES.get(name, name)
     if name in _PAIRS:
-        found, movement = _PAIRS[name]
-        return ExportedKind(found, Chain((movement,), base[None]))
-    make = _MADE.get(name)
-    return None if make is None else make(base, follower)
+        pair, movement = _PAIRS[name]
+        found = ExportedKind(pair, Chain((movement,), base[None]))
+    elif name not in _MADE or (found := _MADE[name](base, follower)) is None:
+        return None
+    first, second = (follower, base) if found.swapped else (base, follower)
+    offset, tilt = _apart(_HELD[name], first, second)
+    return found._replace(offset=offset, tilt=tilt)
+
+
+def _apart(held: _Held, first: Transform, second: Transform) -> tuple[float, float]:
+    """Measure the distance and the angle by which two frames differ in what a joint holds."""
+    between = inverse(first) @ second
+    offset = float(np.linalg.norm([between["xyz".index(each), 3] for each in held.places]))
+    if held.turns == "none":
+        return offset, 0.0
+    if held.turns == "axis":
+        return offset, float(np.arctan2(np.linalg.norm(between[:2, 2]), between[2, 2]))
+    turn = between[:3, :3]
+    sine = 0.5 * np.linalg.norm([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
+    return offset, float(np.arctan2(sine, 0.5 * (np.trace(turn) - 1.0)))
 
 
 def _universal(base: Transform, follower: Transform) -> ExportedKind | None:
@@ -59,23 +88,29 @@ def _universal(base: Transform, follower: Transform) -> ExportedKind | None:
 
 
 def _pin_slot(base: Transform, follower: Transform) -> ExportedKind:
-    direction, axis = base[:3, 0], base[:3, 2]
-    return _as(pairs.pin_in_slot("slot", "base", "follower", point=follower[:3, 3], axis=axis, direction=direction))
+    centre, axis = _on_axis(base, follower, 0), base[:3, 2]
+    return _as(pairs.pin_in_slot("slot", "base", "follower", point=centre, axis=axis, direction=base[:3, 0]))
 
 
 def _free(base: Transform, follower: Transform) -> ExportedKind:
     return _as(pairs.free("free", "base", "follower", point=follower[:3, 3]))
 
 
-def _bearing(base: Transform, follower: Transform) -> ExportedKind | None:
-    line = MateFeature("line", base[:3, 3], base[:3, 2])
-    found = mate("coincident", line, MateFeature("point", follower[:3, 3], base[:3, 2]), 0.0, 0.0)
-    return None if found is None or found.kind is None else ExportedKind(found.kind, found.chain)
+def _bearing(base: Transform, follower: Transform) -> ExportedKind:
+    centre = base.copy()
+    centre[:3, 3] = _on_axis(base, follower, 2)
+    movements = find_state("j", "circle").movements
+    return ExportedKind(JointKind.of_state("j"), Chain(movements, np.stack([base, centre])))
 
 
-def _telescoping(base: Transform, follower: Transform) -> ExportedKind | None:
-    found = _bearing(follower, base)
-    return None if found is None else found._replace(swapped=True)
+def _telescoping(base: Transform, follower: Transform) -> ExportedKind:
+    return _bearing(follower, base)._replace(swapped=True)
+
+
+def _on_axis(base: Transform, follower: Transform, axis: int) -> np.ndarray:
+    """Find the point of an axis of the base next to the follower, which is beside it by rounding at least."""
+    direction = base[:3, axis]
+    return base[:3, 3] + float((follower[:3, 3] - base[:3, 3]) @ direction) * direction
 
 
 def _as(made: Joint) -> ExportedKind:
@@ -93,3 +128,12 @@ _MADE: dict[str, Callable[[Transform, Transform], ExportedKind | None]] = {
     "free": _free,
     "bushing": _free,  # three springs along and about the axes, which exports do not say
 }
+
+_HELD = {
+    "fixed": _Held("xyz", "all"), "revolute": _Held("xyz", "axis"), "prismatic": _Held("xy", "all"),
+    "cylindrical": _Held("xy", "axis"), "planar": _Held("z", "axis"), "spherical": _Held("xyz"),
+    "universal": _Held("xyz"), "pinslot": _Held("yz", "axis"), "pininslot": _Held("yz", "axis"),
+    "bearing": _Held("xy"), "telescoping": _Held("xy"),
+    **dict.fromkeys(("6dof", "sixdof", "free", "bushing"), _Held("")),
+}  # fmt: skip
+"""Kinds of joints, as `joint_of_kind` knows them -> what they hold."""

@@ -64,8 +64,8 @@ class _Reader:
         self.file, self.notes = file, []
         self.metres = self._metres(unit_of(root, "length", "meter"))
         self.kilograms = self._kilograms(unit_of(root, "mass", "kilogram"))
-        self.part_of = {part.get("uid"): part for part in root.iterfind("Parts/Part")}
-        self.assembly_of = {one.get("uid"): one for one in root.iterfind("Assemblies/Assembly")}
+        self.part_of = {_uid(part): part for part in root.iterfind("Parts/Part")}
+        self.assembly_of = {_uid(one): one for one in root.iterfind("Assemblies/Assembly")}
         self.rounding = 0.0
         self.uid_of: dict[tuple[str, ...], str] = {}
         self.placed: dict[tuple[str, ...], np.ndarray] = {(): np.eye(4)}
@@ -76,14 +76,14 @@ class _Reader:
         if tree is not None:
             world = _Above((), (), np.eye(4), (), None, held=_held(root, ()))
             for path, names, instance, fixed_in, body in self._instances(tree, world):
-                uid = instance.get("entityUid")
+                uid = _uid(instance, "entityUid")
                 if uid in self.part_of:
                     parts.append(self._part(self.part_of[uid], path, names, fixed_in, body))
                 elif uid in self.assembly_of:
                     assemblies.append((path, self.assembly_of[uid]))
                 else:
                     self.notes.append(f"{'/'.join(names)}: no part or assembly {uid!r} in the file; left out")
-        self.uid_of = {path: assembly.get("uid", "") for path, assembly in assemblies}
+        self.uid_of = {path: _uid(assembly) for path, assembly in assemblies}
         found = [one for path, assembly in assemblies for one in self._relations(assembly, path)]
         joints = tuple(one for one in found if isinstance(one, ExportedJoint))
         mates = tuple(one for one in found if isinstance(one, ExportedMate))
@@ -98,11 +98,11 @@ class _Reader:
         and in the world only if that is: the first part of most assemblies is, also of those that move.
         """
         inside = at.findall("Instance")
-        grounded = {one.get("uid", "") for one in inside if _true(one, "grounded")}
+        grounded = {_uid(one) for one in inside if _true(one, "grounded")}
         held = {**{(uid,): above.stands_in for uid in grounded}, **above.held}
         everything = above.holds_all and not grounded
         for one in inside:
-            inner, called = (*above.path, one.get("uid", "")), (*above.names, one.get("name", ""))
+            inner, called = (*above.path, _uid(one)), (*above.names, one.get("name", ""))
             group = one.get("rigidGroup")
             body = above.body or ((*above.path, f"group {group}") if group else inner if _true(one, "rigid") else None)
             if inner in self.placed:
@@ -112,7 +112,7 @@ class _Reader:
             self.placed[inner] = above.place @ self._transform(one.find("Transform"), "/".join(called))
             fixed_in = above.stands_in if everything else held.get((inner[-1],))
             yield inner, called, one, fixed_in, body
-            definition = self.assembly_of.get(one.get("entityUid"))
+            definition = self.assembly_of.get(_uid(one, "entityUid"))
             tied = definition is not None and any(definition.find(each) is not None for each in RELATIONS)
             stands_in, holds_all = (inner, False) if fixed_in is None else (fixed_in, not tied)
             below = {path[1:]: at for path, at in held.items() if path[0] == inner[-1] and len(path) > 1}
@@ -233,8 +233,12 @@ def _true(instance: Element, attribute: str) -> bool:
     return instance.get(attribute, "").strip().lower() == "true"
 
 
+def _uid(of: Element, attribute: str = "uid") -> str:
+    return of.get(attribute, "").strip()
+
+
 def _uids(path: Element | None) -> tuple[str, ...]:
-    return () if path is None else tuple(uid.text or "" for uid in path.iterfind("Uid"))
+    return () if path is None else tuple((uid.text or "").strip() for uid in path.iterfind("Uid"))
 
 
 def _held(assembly: Element, stands_in: tuple[str, ...]) -> dict[tuple[str, ...], tuple[str, ...]]:

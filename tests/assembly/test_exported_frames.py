@@ -55,6 +55,7 @@ def test_a_part_that_is_held_by_the_assembly_itself_stands_still(tmp_path, weld,
     tree, joints = arm_of_servos()
     mechanism = load(tmp_path, tree, joints + weld, mates, assemblies='<Assembly uid="A"/>').mechanism()
     assert mechanism.fixed == ("base",) and mechanism.mobility().freedoms == 2
+    assert not any("left out" in note for note in mechanism.notes)
 
 
 def test_a_part_that_the_assembly_itself_does_not_hold_is_named(tmp_path):

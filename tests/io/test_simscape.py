@@ -186,6 +186,15 @@ def test_what_is_on_an_assembly_itself_is_on_it_by_its_own_identifier(tmp_path: 
     assert [each.path for each in export.joints[0].sides] == [("s",), ("s", "b")]
 
 
+def test_identifiers_may_stand_between_spaces_and_comments(tmp_path: Path) -> None:
+    tree = instance("s", "A", FRAME.format("0 0 0"), instance("b", "P", FRAME.format("0 0 0")))
+    joint = f'<Revolute name="hinge">{side("BaseFrame")}{side("FollowerFrame", "s", "b")}</Revolute>'
+    path = written(tmp_path, tree, joint, '<Assembly uid="A"/>')
+    path.write_text(path.read_text().replace("<Uid>", "<Uid>\n  <!-- of a part -->").replace("</Uid>", "\n</Uid>"))
+    (found,) = read_export(path).joints
+    assert [each.path for each in found.sides] == [(), ("s", "b")]
+
+
 def test_mates_of_more_than_two_features_are_told_as_such(tmp_path: Path) -> None:
     tree = instance("b", "P", FRAME.format("0 0 0"))
     feature = '<ConstraintGeometry geomType="plane"><InstancePath><Uid>b</Uid></InstancePath></ConstraintGeometry>'
