@@ -19,6 +19,8 @@ class ExportedPart:
     """Names along the path."""
     file: str
     """Name of its STEP file, beside the XML; empty where the export names none."""
+    file_unit: tuple[str, float]
+    """Unit of its model, which is that of a file that says none itself, such as one of STL: its name, and metres."""
     transform: np.ndarray
     """(4, 4) from its file to the world, metres."""
     inertial: Inertial | None

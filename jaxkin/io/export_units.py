@@ -36,6 +36,13 @@ def unit_of(root: Element, what: str, usual: str) -> str:
     return next((name for name in found if name), usual)
 
 
+def model_unit(root: Element, part: Element) -> str:
+    """Find the name of the unit of length of the model of a part; that of the numbers of the file where there is
+    none."""
+    own = (at.get("length") for each in (part, root) if (at := each.find(MODEL)) is not None)
+    return next((name for name in own if name), unit_of(root, "length", "meter"))
+
+
 def factor(name: str, known: Mapping[str, float]) -> float | None:
     """Look up a unit by its name in any case of letters, in the singular or the plural; None where it is not known."""
     called = name.strip().casefold().replace("metre", "meter").replace("-", "")

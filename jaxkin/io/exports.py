@@ -40,8 +40,9 @@ def read_exported(path: Path, root: Element, read_solids: Reader) -> tuple[tuple
     """Read the parts of an export in world coordinates, their unit, and what the CAD system says; `root` is its XML.
 
     Each instance is a part; an instance of several solids is a rigid group. Lengths are in the unit of the first file
-    of a solid; solids in another unit are converted. Warns of parts without a file, and of files that hold no solid or
-    are damaged: these parts are small boxes. Raises ValueError where the XML is not understood.
+    of a solid; solids in another unit are converted, and files that say none are in that of their part, which a note
+    tells. Warns of parts without a file, and of files that hold no solid or are damaged: these parts are small boxes.
+    Raises ValueError where the XML is not understood.
     """
     export = read_export(path, root)
     if not export.parts:
@@ -49,10 +50,8 @@ def read_exported(path: Path, root: Element, read_solids: Reader) -> tuple[tuple
     files, missing = _files(path.parent, export.parts)
     products, unread = _read_each(files, read_solids)
     unit = next((unit for _, unit in products.values() if unit), "m")
-    solids = {
-        name: tuple(scaled(part, METRES[own] / METRES[unit]) if own not in ("", unit) else part for part in parts)
-        for name, (parts, own) in products.items()
-    }
+    notes = list(export.notes)
+    solids = _converted(products, {part.file: part.file_unit for part in export.parts}, unit, notes)
     if missing:
         names = [f"{part.name!r} ({part.file or 'no file is named'})" for part in missing]
         warnings.warn(
@@ -67,7 +66,6 @@ def read_exported(path: Path, root: Element, read_solids: Reader) -> tuple[tuple
         )
     metres = METRES[unit]
     placed, groups, first = _placed(export, solids, metres)
-    notes = list(export.notes)
     size = _extent(export) / metres
     fixed = fixed_parts(export, first, metres, size, notes)
     where = ConstrainedParts(export, first, next(iter(fixed), None))
@@ -94,6 +92,22 @@ def _read_each(
         except ValueError as error:  # parts that are sketches or planes only have a file without a solid
             unread.append(str(error))
     return products, unread
+
+
+def _converted(
+    products: Mapping[str, tuple[tuple[Part, ...], str]],
+    file_units: Mapping[str, tuple[str, float]],
+    unit: str,
+    notes: list[str],
+) -> dict[str, tuple[Part, ...]]:
+    """Convert the solids of each file to a unit; those of files that say none are in `file_units`, which is noted."""
+    solids = {}
+    for name, (parts, own) in products.items():
+        times = (METRES[own] if own else file_units[name][1]) / METRES[unit]
+        solids[name] = parts if times == 1.0 else tuple(scaled(part, times) for part in parts)
+    if silent := [f"{name} in {file_units[name][0]}" for name, (_, own) in products.items() if not own]:
+        notes.append(f"files that say no unit are taken to be in that of their parts: {listed(silent, LISTED)}")
+    return solids
 
 
 def _files(folder: Path, parts: Sequence[ExportedPart]) -> tuple[dict[str, Path], list[ExportedPart]]:

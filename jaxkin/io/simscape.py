@@ -12,7 +12,7 @@ import numpy as np
 
 from jaxkin.geometry.inertial import Inertial
 from jaxkin.io.export_content import Export, ExportedJoint, ExportedMate, ExportedPart, ExportedSide, MatedFeature
-from jaxkin.io.export_units import KILOGRAMS_BY_NAME, METRES_BY_NAME, factor, unit_of
+from jaxkin.io.export_units import KILOGRAMS_BY_NAME, METRES_BY_NAME, factor, model_unit, unit_of
 from jaxkin.io.xml_tree import read_xml
 
 ORTHOGONAL = 1e-5
@@ -64,6 +64,7 @@ class _Reader:
         self.file, self.notes = file, []
         self.metres = self._metres(unit_of(root, "length", "meter"))
         self.kilograms = self._kilograms(unit_of(root, "mass", "kilogram"))
+        self.root = root
         self.part_of = {_uid(part): part for part in root.iterfind("Parts/Part")}
         self.assembly_of = {_uid(one): one for one in root.iterfind("Assemblies/Assembly")}
         self.rounding = 0.0
@@ -126,7 +127,10 @@ class _Reader:
     ) -> ExportedPart:
         geometry = part.find("GeometryFile")
         file = "" if geometry is None else geometry.get("name", "")
-        return ExportedPart(path, names, file, self.placed[path], self._inertial(part, names[-1]), fixed_in, body)
+        unit = model_unit(self.root, part)
+        metres = factor(unit, METRES_BY_NAME)
+        said = (unit, metres) if metres else ("metres", 1.0)
+        return ExportedPart(path, names, file, said, self.placed[path], self._inertial(part, names[-1]), fixed_in, body)
 
     def _inertial(self, part: Element, name: str) -> Inertial | None:
         """Read what a part weighs; None, and a note, for a mass below zero."""
