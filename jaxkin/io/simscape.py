@@ -15,6 +15,15 @@ from jaxkin.io.export_content import Export, ExportedJoint, ExportedMate, Export
 from jaxkin.io.export_units import KILOGRAMS_BY_NAME, METRES_BY_NAME, factor, model_unit, unit_of
 from jaxkin.io.xml_tree import read_xml
 
+ROOTS = ("SimscapeMultibodyImportXML", "SimMechanicsImportXML")
+"""Outermost elements: of version 2.0, and of 1.0, which SimMechanics Link wrote until 2015."""
+
+_OTHERS = {
+    "PhysicalModelingXMLFile": ", the first generation of SimMechanics Link: export the assembly by Simscape Multibody "
+    "Link, or as STEP"
+}
+"""Outermost elements of files that are refused -> what to do."""
+
 ORTHOGONAL = 1e-5
 """Largest entry by which rows of a rotation are not orthogonal unit vectors: those of six digits are not by 2e-6."""
 
@@ -52,8 +61,10 @@ def read_export(path: str | Path, root: Element | None = None) -> Export:
     """
     path = Path(path)
     root = read_xml(path) if root is None else root
-    if root.tag != "SimscapeMultibodyImportXML" or (assembly := root.find("RootAssembly")) is None:
-        raise ValueError(f"{path.name}: expected SimscapeMultibodyImportXML with a RootAssembly, got <{root.tag}>")
+    if root.tag not in ROOTS or (assembly := root.find("RootAssembly")) is None:
+        raise ValueError(
+            f"{path.name}: expected {ROOTS[0]} with a RootAssembly, got <{root.tag}>{_OTHERS.get(root.tag, '')}"
+        )
     return _Reader(path.name, root).export(assembly)
 
 

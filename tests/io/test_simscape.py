@@ -186,6 +186,20 @@ def test_what_is_on_an_assembly_itself_is_on_it_by_its_own_identifier(tmp_path: 
     assert [each.path for each in export.joints[0].sides] == [("s",), ("s", "b")]
 
 
+def test_the_first_version_of_the_format_is_read_and_the_first_generation_is_refused_with_a_remedy(
+    tmp_path: Path,
+) -> None:
+    """SimMechanics Link wrote version 1.0 from 2013 on; it has another name of the outermost element."""
+    path = written(tmp_path, instance("b", "P", FRAME.format("1 2 3"), grounded="true"))
+    text = path.read_text().replace("urn:x", "urn:mathworks:simmechanics:import")
+    path.write_text(text.replace("SimscapeMultibodyImportXML", "SimMechanicsImportXML"))
+    (part,) = read_export(path).parts
+    np.testing.assert_array_equal(part.transform[:3, 3], (1, 2, 3))
+    path.write_text("<PhysicalModelingXMLFile><name>b</name></PhysicalModelingXMLFile>")
+    with pytest.raises(ValueError, match=r"got <PhysicalModelingXMLFile>, the first generation .*, or as STEP"):
+        read_export(path)
+
+
 def test_identifiers_may_stand_between_spaces_and_comments(tmp_path: Path) -> None:
     tree = instance("s", "A", FRAME.format("0 0 0"), instance("b", "P", FRAME.format("0 0 0")))
     joint = f'<Revolute name="hinge">{side("BaseFrame")}{side("FollowerFrame", "s", "b")}</Revolute>'
