@@ -47,6 +47,8 @@ class MateFeature:
     """Whether it is the axis of a circle, which lies in a plane, too."""
     surface: bool = False
     """Whether it is the axis of a round surface or its centre, on which what coincides with it need not lie."""
+    cone: bool = False
+    """Whether that surface is a cone, whose half-angle and apex exporters do not say."""
 
     @staticmethod
     def of(geometry: str, point: Vector, axis: Vector | None) -> MateFeature | None:
@@ -56,7 +58,7 @@ class MateFeature:
         if kind is None or (axis is None and kind != "point"):
             return None
         along = np.array([0.0, 0.0, 1.0]) if axis is None else axis
-        return MateFeature(kind, point, along, circle=name == "circle", surface=name in _ROUND)
+        return MateFeature(kind, point, along, name == "circle", name in _ROUND, name == "cone")
 
 
 class MateSet(NamedTuple):
@@ -79,7 +81,7 @@ def mate(tag: str, one: MateFeature, other: MateFeature, angle: float, length: f
     What is to coincide, to be parallel or perpendicular is taken to be, as it stands on the first of the two parts;
     distances and other angles are those of the assembled pose. Directions within `angle` (radians) are parallel;
     features nearer to each other than `length` coincide. None, too, for a distance between features that are not
-    parallel.
+    parallel, and for what touches a cone beside its axis.
     """
     tag = tag.lower()
     order: tuple[FeatureKind, ...] = ("plane", "line", "point")
@@ -89,6 +91,8 @@ def mate(tag: str, one: MateFeature, other: MateFeature, angle: float, length: f
         return _angle_kept(tag, first, second, angle)._replace(swapped=swapped)
     if tag not in COINCIDE + KEEP_DISTANCE:
         return None
+    if tag != "concentric" and (first.cone or second.cone):
+        return _on_cone(tag, first, second, swapped, angle, length)
     offset = tilt = 0.0
     if tag == "coincident" and first.circle and second.kind == "point" and _beside(first, second.point) > length:
         return _on_circle(first, second, swapped)
@@ -112,6 +116,28 @@ def _on_circle(circle: MateFeature, point: MateFeature, swapped: bool) -> MateSe
     frames = np.stack([frame(circle.point, circle.axis), frame(on, circle.axis)])
     offset = float(np.linalg.norm(point.point - on))
     return MateSet(Chain([_ALONE[kind] for kind in kinds], frames), None, swapped, offset)
+
+
+def _on_cone(
+    tag: str, first: MateFeature, second: MateFeature, swapped: bool, angle: float, length: float
+) -> MateSet | None:
+    """Find the displacements of what touches a cone all around: a cone, or a circle, turns about the axis, a ball or
+    the apex about itself; a line on the axis slides there, too. None for what does not, as a point on the cone: it
+    needs the half-angle."""
+    laid, offset, tilt = _laid_on(first, second)
+    meet, coincident = offset <= length and tilt <= angle, tag == "coincident"
+    around = (first.cone or first.circle) and (second.cone or second.circle)
+    kind = None
+    if second.kind == "point":
+        kind = JointKind.SPHERICAL if meet else None
+    elif around:
+        kind = JointKind.REVOLUTE if meet or coincident else None
+    elif meet and coincident and first.kind == "line":
+        kind = JointKind.CYLINDRICAL
+    if kind is None:
+        return None
+    point = first.point if first.circle else laid.point
+    return MateSet(Chain([_ALONE[kind]], frame(point, first.axis)[None]), kind, swapped, offset, tilt)
 
 
 def _on_round(first: MateFeature, second: MateFeature) -> bool:

@@ -34,6 +34,7 @@ def test_mates_of_two_parts_are_intersected(tmp_path):
 
 
 PLANE, LINE, POINT = ("plane", (0, 0, 0), Z), ("line", (0, 0, 0), X), ("point", (0, 0, 0), Z)
+CONE = ("cone", (0, 0, 0), Z)
 
 
 @pytest.mark.parametrize(
@@ -52,6 +53,13 @@ PLANE, LINE, POINT = ("plane", (0, 0, 0), Z), ("line", (0, 0, 0), X), ("point", 
         ("Tangent", PLANE, ("cylinder", (0, 0, 0.1), X), 4),
         ("Coincident", ("circle", (0, 0, 0), Z), ("circle", (0, 0, 0), (0, 0, -1)), 1),
         ("Coincident", ("circle", (0.1, 0, 0), Z), PLANE, 3),
+        ("Coincident", CONE, ("cone", (0, 0, 0.2), (0, 0, -1)), 1),
+        ("Distance", CONE, ("cone", (0, 0, 0.2), Z), 1),
+        ("Concentric", CONE, ("cone", (0, 0, 0.2), Z), 2),
+        ("Coincident", CONE, ("circle", (0, 0, 0.2), Z), 1),
+        ("Coincident", CONE, ("line", (0, 0, 0.2), Z), 2),
+        ("Tangent", CONE, ("sphere", (0, 0, 0.2), Z), 3),
+        ("Concentric", CONE, ("point", (0, 0, 0.2), Z), 4),
         ("Lock", POINT, POINT, 0),
     ],
 )
@@ -61,6 +69,23 @@ def test_each_mate_leaves_its_freedoms(tmp_path, kind, one, other, freedoms, swa
     sides = (("part", *one), ("base", *other)) if swapped else (("base", *one), ("part", *other))
     mechanism = load(tmp_path, tree, mates=mate(kind, "m", *sides)).mechanism()
     assert mechanism.mobility().freedoms == freedoms
+
+
+@pytest.mark.parametrize(
+    ("kind", "other"),
+    [
+        ("Coincident", ("point", (0.1, 0, 0.2), Z)),
+        ("Tangent", ("plane", (0, 0, 0.2), X)),
+        ("Tangent", ("sphere", (0.1, 0, 0.2), Z)),
+        ("Distance", ("cone", (0.1, 0, 0.2), Z)),
+        ("Coincident", ("line", (0.1, 0, 0.2), (0.5, 0, 1))),
+    ],
+)
+def test_what_touches_a_cone_beside_its_axis_is_named(tmp_path, kind, other):
+    """It moves along a ruling, at an angle that exporters do not say; it was taken to keep its distance."""
+    tree = instance("base", grounded="true") + instance("part")
+    mechanism = load(tmp_path, tree, mates=mate(kind, "m", ("base", *CONE), ("part", *other))).mechanism()
+    assert any(f"{kind} 'm' of a cone and a" in note and "not understood" in note for note in mechanism.notes)
 
 
 @pytest.mark.parametrize(("kind", "axis", "left"), [("Parallel", X, "prismatic"), ("Perpendicular", Y, "prismatic")])
