@@ -24,7 +24,7 @@ def fixed_parts(export: Export, first: Paths, metres: float, size: float, notes:
     """
     fixed = [first[part.path] for part in export.parts if part.fixed_in == ()] or _held(export, first, metres, size)
     if fixed:
-        return tuple(fixed)
+        return tuple(dict.fromkeys(fixed))  # instances with one identifier are one body
     inside = [part for part in export.parts if part.fixed_in is not None]
     if not inside:
         return ()
@@ -33,7 +33,7 @@ def fixed_parts(export: Export, first: Paths, metres: float, size: float, notes:
         notes.append(f"nothing is fixed in the assembly itself, only in {frames}, which may move")
         return ()
     notes.append(f"nothing is fixed in the assembly itself; what is fixed in {frames} is taken to be")
-    return tuple(first[part.path] for part in inside)
+    return tuple(dict.fromkeys(first[part.path] for part in inside))
 
 
 def _held(export: Export, first: Paths, metres: float, size: float) -> list[str]:

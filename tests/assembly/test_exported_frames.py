@@ -76,6 +76,13 @@ def test_in_an_assembly_that_is_fixed_joints_move_what_is_not(tmp_path, inner, f
     assert assembly.mechanism().mobility().freedoms == 1 + freedoms
 
 
+def test_a_part_that_is_held_twice_under_one_identifier_stands_still(tmp_path):
+    tree = 2 * instance("base", grounded="true") + instance("arm")
+    mechanism = load(tmp_path, tree, joint("Revolute", "A", "base", "arm", (0, 0, 0))).mechanism()
+    assert mechanism.mobility().freedoms == 1
+    assert any("taken for one body" in note for note in mechanism.notes)
+
+
 def test_an_export_that_holds_no_part_asks_for_one(tmp_path):
     assembly = load(tmp_path, instance("base") + instance("arm"), joint("Revolute", "A", "base", "arm", (0, 0, 0)))
     with pytest.raises(ValueError, match=r"machine.xml: its CAD system holds no part; .*fixed=\['base'\]"):
