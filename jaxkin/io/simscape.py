@@ -27,6 +27,9 @@ _OTHERS = {
 ORTHOGONAL = 1e-5
 """Largest entry by which rows of a rotation are not orthogonal unit vectors: those of six digits are not by 2e-6."""
 
+HUGE = 1e30
+"""Numbers of no machine, in any unit, whose squares still can be computed with."""
+
 RELATIONS = ("Joints/*", "Constraints/*")
 """Where an assembly has its joints and mates."""
 
@@ -225,8 +228,10 @@ class _Reader:
             numbers = np.array((text or "").split(), float)
         except ValueError:
             numbers = np.empty(0)
-        if len(numbers) != count or not np.isfinite(numbers).all():
-            raise ValueError(f"{self.file}: {name!r}: expected {count} finite numbers, got {text!r}")
+        if len(numbers) != count or not (np.abs(numbers) < HUGE).all():  # NaN, too
+            raise ValueError(
+                f"{self.file}: {name!r}: expected {count} numbers, finite and below {HUGE:g}, got {text!r}"
+            )
         return numbers
 
     def _metres(self, unit: str) -> float:

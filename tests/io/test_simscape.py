@@ -125,7 +125,9 @@ def test_other_files_are_refused_in_one_line(tmp_path: Path, text: str, said: st
     assert "bad.xml" in str(raised.value)
 
 
-@pytest.mark.parametrize(("at", "unit"), [("nan 0 0", "meter"), ("1 2", "meter"), ("0 0 0", "cubit")])
+@pytest.mark.parametrize(
+    ("at", "unit"), [("nan 0 0", "meter"), ("1 2", "meter"), ("0 1e200 0", "meter"), ("0 0 0", "cubit")]
+)
 def test_numbers_and_units_that_cannot_be_are_refused(tmp_path: Path, at: str, unit: str) -> None:
     with pytest.raises(ValueError, match=r"arm\.xml"):
         read_export(written(tmp_path, instance("b", "P", FRAME.format(at)), unit=unit))
