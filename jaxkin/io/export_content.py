@@ -91,4 +91,5 @@ class Export:
     rounding: float
     """Largest entry by which rows of its rotations are not orthogonal unit vectors: about what the digits leave."""
     marks_rigid: bool
-    """Whether it says of a sub-assembly that it is rigid: then parts of the others may move against each other."""
+    """Whether its exporter marks what sub-assemblies are rigid: then parts of the others may move against each
+    other."""

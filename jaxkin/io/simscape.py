@@ -33,6 +33,10 @@ HUGE = 1e30
 RELATIONS = ("Joints/*", "Constraints/*")
 """Where an assembly has its joints and mates."""
 
+MARKS_RIGID = "link"
+"""In the name of an exporter that marks all sub-assemblies that are rigid: Simscape Multibody Link and SimMechanics
+Link, of SolidWorks, Creo and Inventor. That of Onshape marks none, and is named otherwise."""
+
 RIGID = "Rigid"
 """A constraint of Creo: of two instances that they do not move against each other, of one that it is fixed in the
 assembly. It has no frames or features."""
@@ -102,7 +106,9 @@ class _Reader:
         found = [one for path, assembly in assemblies for one in self._relations(assembly, path)]
         joints = tuple(one for one in found if isinstance(one, ExportedJoint))
         mates = tuple(one for one in found if isinstance(one, ExportedMate))
-        marks_rigid = tree is not None and any(_true(each, "rigid") for each in tree.iter("Instance"))
+        created = self.root.find("Created")
+        marks_rigid = created is not None and MARKS_RIGID in created.get("using", "").casefold()
+        marks_rigid |= tree is not None and any(_true(each, "rigid") for each in tree.iter("Instance"))
         return Export(root.get("name", ""), tuple(parts), joints, mates, tuple(self.notes), self.rounding, marks_rigid)
 
     def _instances(self, at: Element, above: _Above) -> Iterator[tuple]:

@@ -2,6 +2,7 @@
 
 import pytest
 
+import jaxkin as jk
 from reference.exported import X, Y, Z, instance, joint, load, mate
 
 
@@ -124,3 +125,8 @@ def test_sub_assemblies_that_are_not_rigid_are_not_where_others_are_said_to_be(t
     assemblies = '<Assembly uid="A"/><Assembly uid="B"/>'
     mechanism = load(tmp_path, tree, joints, assemblies=assemblies).mechanism()
     assert mechanism.mobility().freedoms == freedoms
+    path = tmp_path / "machine.xml"
+    created = '<Created using="Simscape Multibody Link Version 6.1" from="SolidWorks 29.0.0"/><RootAssembly'
+    path.write_text(path.read_text().replace("<RootAssembly", created))
+    with pytest.warns(UserWarning, match="no solids"):
+        assert jk.load(path).mechanism().mobility().freedoms == 3  # this exporter marks those that are rigid
