@@ -34,4 +34,4 @@ def test_meshes_that_say_no_unit_are_in_that_of_the_model_of_their_part(tmp_path
         solid.box, [(0.5, 0, 0) - edges / 2, (0.5, 0, 0) + edges / 2], atol=1e-6
     )  # single precision
     assert assembly.unit == "m"
-    assert any("plate.STL in" in note for note in assembly.exported.notes)
+    assert any("plate.STL in" in note for note in assembly.mechanism().notes)
