@@ -19,7 +19,7 @@ from jaxkin.effects.assembly_modes import AssemblyModes as AssemblyModes
 from jaxkin.effects.assembly_modes import assembly_modes as assembly_modes
 from jaxkin.effects.calibrate import calibrate as calibrate
 from jaxkin.effects.calibration_result import Calibration as Calibration
-from jaxkin.effects.clashes import Clashes as Clashes
+from jaxkin.effects.clash_result import Clashes as Clashes
 from jaxkin.effects.clashes import clashes as clashes
 from jaxkin.effects.contact_validity import ContactValidity as ContactValidity
 from jaxkin.effects.contact_validity import contact_validity as contact_validity
@@ -28,8 +28,8 @@ from jaxkin.effects.coupler_curve import coupler_curve as coupler_curve
 from jaxkin.effects.curve_contact import CurveContact as CurveContact
 from jaxkin.effects.curve_contact import CurveContacts as CurveContacts
 from jaxkin.effects.curve_contacts import curve_contacts as curve_contacts
-from jaxkin.effects.forces.drive import DriveForces as DriveForces
 from jaxkin.effects.forces.drive import drive_forces as drive_forces
+from jaxkin.effects.forces.drive_result import DriveForces as DriveForces
 from jaxkin.effects.forces.equilibrium import Equilibrium as Equilibrium
 from jaxkin.effects.forces.equilibrium import equilibrium as equilibrium
 from jaxkin.effects.forces.friction_result import Friction as Friction

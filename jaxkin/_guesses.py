@@ -4,21 +4,20 @@ from __future__ import annotations
 
 import inspect
 import sys
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from jaxkin._names import closest, listed
 
+_PICTURES = "plot draw show render view picture figure image visualize visualise display"
+_TABLES = "to_csv csv write_csv save_csv to_dataframe dataframe to_pandas to_numpy to_dict table write export dump"
 _WORDS = {
     'jk.storyboard(motion, "motion.png") draws a motion, motion.save("out") animates it (motion.html), '
-    'mechanism.structure.plot("loops.png") draws loops, and results have their own plot("picture.png")': (
-        "plot draw show render view picture figure image visualize visualise display"
-    ),
+    'mechanism.structure.plot("loops.png") draws loops, and results have their own plot("picture.png")': _PICTURES,
     'motion.save("out") writes the animation motion.html, and motion.glb': (
         "animate animation html video gif movie play to_html save_html save_animation"
     ),
-    'motion.save("out") writes tables, motion.csv and motion.npz, an animation and a picture': (
-        "to_csv csv write_csv save_csv to_dataframe dataframe to_pandas to_numpy to_dict table write export dump"
-    ),
+    'motion.save("out") writes tables, motion.csv and motion.npz, an animation and a picture': _TABLES,
     'jk.load("machine.step") reads STEP files, meshes and robots, jk.load_study("machine.toml") studies': (
         "read open read_step load_step from_step import_step load_urdf read_urdf from_urdf load_mjcf load_xml "
         "load_robot load_stl load_mesh load_file from_file loads"
@@ -85,6 +84,9 @@ _WORDS = {
 
 _ADVICE = {name: advice for advice, names in _WORDS.items() for name in names.split()}
 
+MAX_LETTERS = 60
+"""Letters of the names that the line of a result lists: it fits on one line of a terminal."""
+
 _HELD = ("Mechanism", "Motion", "Assembly")
 """What users hold: whose names may have been asked of another."""
 
@@ -96,20 +98,56 @@ class Guided:
     def __repr__(self) -> str:
         return f"<{type(self).__name__} of {listed(tuple(getattr(self, 'parts', ())))}>"
 
+    @classmethod
+    def _instead_of(cls, name: str) -> str:
+        """Write the end of a message about a name that is not there."""
+        return _instead(name, _names_of(cls))
+
     if not TYPE_CHECKING:  # else a checker of types takes every name for one that is there
 
         def __getattr__(self, name: str) -> object:
             owner = type(self)
             if hasattr(owner, name):  # a property that failed with an AttributeError of its own: raise that
                 return object.__getattribute__(self, name)
-            raise missing(f"{owner.__name__!r} object", name, _names_of(owner))
+            raise _missing(f"{owner.__name__!r} object", name, owner._instead_of)
+
+
+class Result(Guided):
+    """What a function finds out: one line in place of all its numbers, with the names of these, which are also told to
+    whoever asks it for another one."""
+
+    def __repr__(self) -> str:
+        owner = type(self)
+        ending = "" if owner.__str__ is object.__str__ else "; print() sums it up"
+        names = [name for name in _listed_names(owner) if not inspect.isfunction(getattr(owner, name, None))]
+        said = ", ".join(names)
+        if len(said) > MAX_LETTERS:
+            said = f"{said[:MAX_LETTERS].rpartition(', ')[0]}, ..."
+        return f"<{owner.__name__} with {said}{ending}>"
+
+    @classmethod
+    def _instead_of(cls, name: str) -> str:
+        known = _listed_names(cls)
+        if found := closest(name, known):
+            return found
+        for call, words in (('plot("picture.png")', _PICTURES), ('save("table.csv")', _TABLES)):
+            if name in words.split() and call.partition("(")[0] in known:
+                return f": write {call}"
+        if "motion" in known and name in _names_of(sys.modules["jaxkin"].Motion):
+            return f"; did you mean .motion.{name}?"
+        return f"; it has {', '.join(known)}"
 
 
 def missing(owner: str, name: str, known: list[str]) -> AttributeError:
     """Make the error for a name that an owner has not, with what to write instead where that is known."""
+    return _missing(owner, name, lambda name: _instead(name, known))
+
+
+def _missing(owner: str, name: str, instead: Callable[[str], str]) -> AttributeError:
+    """Make the error for a name that an owner has not; `instead` writes its end, for names that are not private."""
     said = f"{owner} has no attribute {name!r}"
     # with an object, Python would look for a near name in it, too, and say it twice
-    return AttributeError(said if name.startswith("_") else said + _instead(name, known), name=name, obj=None)
+    return AttributeError(said if name.startswith("_") else said + instead(name), name=name, obj=None)
 
 
 def _instead(name: str, known: list[str]) -> str:
@@ -125,6 +163,13 @@ def _instead(name: str, known: list[str]) -> str:
         first = next(iter(inspect.signature(found).parameters), "")
         return f"; did you mean jk.{name}({first}, ...)?"
     return closest(name, known)
+
+
+def _listed_names(owner: type) -> list[str]:
+    """List the public names of a result in the order of its class: fields first, then what follows from them."""
+    own = [name for each in reversed(owner.__mro__) if issubclass(each, Result) for name in vars(each)]
+    names = [*getattr(owner, "__dataclass_fields__", ()), *own]
+    return [name for name in dict.fromkeys(names) if not name.startswith("_")]
 
 
 def _names_of(owner: type) -> list[str]:

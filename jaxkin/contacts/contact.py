@@ -11,6 +11,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin._grouped import SCREEN, grouped, kind_of, products, shortened
+from jaxkin._guesses import Result
 from jaxkin._names import counted
 from jaxkin.contacts.states import ContactState, find_state
 from jaxkin.geometry.pose import Vector
@@ -78,8 +79,8 @@ class NearMiss:
         )
 
 
-@dataclass(frozen=True, eq=False)
-class Contacts(Sequence[Contact]):
+@dataclass(frozen=True, eq=False, repr=False)
+class Contacts(Result, Sequence[Contact]):
     """The contacts of an assembly, in the order of its parts and their faces; `print` shows them with all reports."""
 
     contacts: tuple[Contact, ...]

@@ -13,6 +13,7 @@ from zipfile import BadZipFile
 import numpy as np
 
 from jaxkin._files import save_figure, whole
+from jaxkin._guesses import Result
 from jaxkin._names import counted
 from jaxkin.design.objective import Objective
 from jaxkin.geometry.characteristic_length import centroid_and_length
@@ -60,8 +61,8 @@ class SweepVerdict:
         return f"{verdict} ({said} of {self.poses} poses{near})"
 
 
-@dataclass(frozen=True, eq=False)
-class Optimum:
+@dataclass(frozen=True, eq=False, repr=False)
+class Optimum(Result):
     """The best design of `optimize`."""
 
     mechanism: Mechanism
@@ -114,13 +115,13 @@ class Optimum:
         drawn = objective is not None and motion is not None
         figure = Figure(figsize=(10 if drawn else 5, 3.8), layout="constrained")
         axes = figure.subplots(1, 2 if drawn else 1, squeeze=False)[0]
-        axes[0].semilogy(np.arange(1, len(self.history) + 1), self.history, color="0.75", linewidth=0.8)
-        axes[0].semilogy(
-            np.arange(1, len(self.history) + 1),
-            np.fmin.accumulate(np.nanmin(np.where(np.isnan(self.history), np.inf, self.history), axis=1)),
-            color="C0",
-            label="best so far",
-        )
+        iterations = np.arange(1, len(self.history) + 1)
+        best = np.fmin.accumulate(np.nanmin(np.where(np.isnan(self.history), np.inf, self.history), axis=1))
+        axes[0].plot(iterations, self.history, color="0.75", linewidth=0.8)
+        axes[0].plot(iterations, best, color="C0", label="best so far")
+        known = self.history[np.isfinite(self.history)]
+        if np.any(known > 0) and not np.any(known < 0):  # no negative loss, as of what is to grow, has a logarithm
+            axes[0].set_yscale("log")
         axes[0].set_xlabel("iteration")
         axes[0].set_ylabel("loss with penalty")
         axes[0].legend(frameon=False)

@@ -13,6 +13,7 @@ import jax
 import numpy as np
 
 from jaxkin._arguments import check_mechanism, one_number, several
+from jaxkin._guesses import Result
 from jaxkin.effects.extended import Extended
 from jaxkin.linkage.coordinates import coordinate, named
 from jaxkin.mechanism.drive_plan import plan_drive
@@ -53,8 +54,8 @@ class WorkPrecisionPoint(NamedTuple):
     """Fraction of the poses that is closed."""
 
 
-@dataclass(frozen=True)
-class WorkPrecision:
+@dataclass(frozen=True, repr=False)
+class WorkPrecision(Result):
     """Time against error of the sweeps of one mechanism. Prints itself as a table, and draws itself."""
 
     points: tuple[WorkPrecisionPoint, ...]

@@ -20,6 +20,7 @@ from jax import dtypes
 from jaxtyping import Array, Float
 
 from jaxkin._arguments import by_name, check_known, check_mechanism, one_number, text, whole_number
+from jaxkin._guesses import Result
 from jaxkin._names import counted, listed
 from jaxkin.effects.coupled_turns import coupled_turns
 from jaxkin.effects.determined_drive import check_determined
@@ -43,8 +44,8 @@ MAX_ROWS = 40
 """Modes that a printed result lists at most: as many as a general hexapod has."""
 
 
-@dataclass(frozen=True)
-class AssemblyMode:
+@dataclass(frozen=True, repr=False)
+class AssemblyMode(Result):
     """One closed pose of a mechanism for the inputs of its `AssemblyModes`."""
 
     modes: AssemblyModes
@@ -79,8 +80,8 @@ class AssemblyMode:
         return self.modes.motion.mechanism.at(self.modes.motion, self.index)
 
 
-@dataclass(frozen=True, eq=False)
-class AssemblyModes:
+@dataclass(frozen=True, eq=False, repr=False)
+class AssemblyModes(Result):
     """The assembly modes of a mechanism for given inputs. Prints, draws and saves itself; `modes[0]` is the first."""
 
     inputs: Mapping[str, float]

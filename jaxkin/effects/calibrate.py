@@ -187,6 +187,7 @@ def _result(
         covariance=covariance,
         undetermined=tuple(_named(names, row, scales) for row in readable(rest)),
         residuals=residuals,
+        of_lengths={kind.name: np.array(kind.lengths) for kind in model.kinds},
         deviation=deviation,
         degrees_of_freedom=freedom,
         condition=float(singular[0] / singular[-1]),

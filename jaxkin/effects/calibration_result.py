@@ -10,12 +10,14 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from jaxkin._files import quoted, save_table
+from jaxkin._guesses import Result
+from jaxkin.effects.pose_axis import PoseAxis
 from jaxkin.effects.pose_plot import draw_lines
 from jaxkin.mechanism.mechanism import Mechanism
 
 
-@dataclass(frozen=True, eq=False)
-class Calibration:
+@dataclass(frozen=True, eq=False, repr=False)
+class Calibration(Result):
     """A mechanism fitted to measured poses. Prints, draws and saves itself.
 
     Unknowns are lengths as they are, and changes of frames, in the unit of the mechanism and in radians.
@@ -38,6 +40,8 @@ class Calibration:
     residuals: Mapping[str, Float[np.ndarray, "poses _"]]
     """Computed less measured values, by what was measured; NaN where nothing was. Poses have three lengths, then three
     angles."""
+    of_lengths: Mapping[str, Bool[np.ndarray, " _"]]
+    """Which columns of the residuals are lengths: the others are angles, in radians."""
     deviation: float
     """Root of the sum of squared residuals over the degrees of freedom: the standard deviation of one measured number;
     in units of `sigma` where that was given, so that it should be about 1. NaN without degrees of freedom."""
@@ -84,15 +88,17 @@ class Calibration:
         return "\n".join(lines)
 
     def plot(self, path: str | Path) -> Path:
-        """Draw the residuals over the poses into a picture file; returns its path."""
-        names, rows = [], []
+        """Draw the residuals over the measured poses into a picture file; returns its path."""
+        names, rows, labels = [], [], []
         for name, values in self.residuals.items():
             parts = ("x", "y", "z", "rx", "ry", "rz")[: values.shape[1]]
-            for part, row in zip(parts, values.T, strict=True):
+            for part, row, is_length in zip(parts, values.T, self.of_lengths[name], strict=True):
                 names.append(f"{name} {part}" if len(parts) > 1 else name)
                 rows.append(row)
-        label = f"computed less measured ({self.unit}, rad)" if self.unit else "computed less measured"
-        return draw_lines(names, np.array(rows), label, "residuals of the calibration", Path(path))
+                unit = self.unit if is_length else "rad"
+                labels.append(f"computed less measured ({unit})" if unit else "computed less measured")
+        axis = PoseAxis(np.arange(len(rows[0])), "measured pose")
+        return draw_lines(names, np.array(rows), labels, "residuals of the calibration", Path(path), axis=axis)
 
     def save(self, path: str | Path) -> Path:
         """Write the unknowns as comma-separated values: given, fitted, standard error; returns the path."""

@@ -16,10 +16,12 @@ from jaxtyping import Bool, Float
 
 from jaxkin._arguments import check_known, check_motion
 from jaxkin._grouped import MAX_LINES
+from jaxkin._guesses import Result
 from jaxkin.assembly.kept_contacts import kept_contacts
 from jaxkin.contacts.contact import Contact
 from jaxkin.contacts.separation import FaceDisplacements, Gaps
 from jaxkin.contacts.whole_face import is_whole, share_region
+from jaxkin.effects.pose_axis import drive_axis
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.part import Face
 from jaxkin.geometry.pose import Transform, apply
@@ -30,10 +32,12 @@ from jaxkin.mechanism.lost_contacts import FaceSetting, gaps_of, moved_second
 from jaxkin.mechanism.motion import Motion
 
 
-@dataclass(frozen=True, eq=False)
-class ContactValidity:
+@dataclass(frozen=True, eq=False, repr=False)
+class ContactValidity(Result):
     """How far the faces of each contact are apart at each pose. Prints, draws and saves itself."""
 
+    motion: Motion
+    """The motion that was looked at."""
     joints: tuple[str, ...]
     """The joint that each contact stands for."""
     contacts: tuple[Contact, ...]
@@ -87,14 +91,14 @@ class ContactValidity:
         return "\n".join(lines)
 
     def plot(self, path: str | Path) -> Path:
-        """Draw the gaps of the contacts that are lost over the poses into a picture file; returns its path."""
+        """Draw the gaps of the contacts that are lost over the drive into a picture file; returns its path."""
         lost = np.flatnonzero(self.lost.any(axis=1)).tolist()
         title = "contacts that are lost" if lost else "no contact is lost"
         label = f"gap between the faces ({self.unit})" if self.unit else "gap between the faces"
         names, rows = [self._named(number) for number in lost], self.gaps[lost]
         if not lost and len(self.gaps):
             names, rows = ["all contacts"], self.gaps.max(axis=0, keepdims=True)
-        return draw_lines(names, rows, label, title, Path(path))
+        return draw_lines(names, rows, label, title, Path(path), axis=drive_axis(self.motion))
 
     def save(self, path: str | Path) -> Path:
         """Write the gaps as comma-separated values, a row a pose and a column a contact; returns the path."""
@@ -151,7 +155,7 @@ def contact_validity(motion: Motion) -> ContactValidity:
             contacts.append(contact)
             rows.append(row)
     gaps = np.stack(rows) if rows else np.zeros((0, len(motion)))
-    return ContactValidity(tuple(joints), tuple(contacts), gaps, mechanism.unit, tuple(unchecked))
+    return ContactValidity(motion, tuple(joints), tuple(contacts), gaps, mechanism.unit, tuple(unchecked))
 
 
 def _gaps(joint: Joint, contact: Contact, moved: FaceDisplacements, setting: FaceSetting) -> Gaps:

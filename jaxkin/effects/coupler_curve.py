@@ -15,6 +15,7 @@ from jaxtyping import Array, Float
 
 from jaxkin._arguments import check_known, check_motion
 from jaxkin._files import save_figure
+from jaxkin._guesses import Result
 from jaxkin._names import listed, nearest
 from jaxkin.effects.curve_range import DOUBLE, SINGLE, CurvePoints, CurveRange, Evaluate, range_of
 from jaxkin.effects.cusps_crossings import Crossing, Cusp, crossings_of, cusps_of
@@ -30,8 +31,8 @@ UPRIGHT = 1e-9
 the world: rounding of poses in either precision leaves less."""
 
 
-@dataclass(frozen=True, eq=False)
-class CouplerCurve:
+@dataclass(frozen=True, eq=False, repr=False)
+class CouplerCurve(Result):
     """The path of a point of a part over one drive. Prints, draws and saves itself."""
 
     part: str
@@ -92,7 +93,7 @@ class CouplerCurve:
                 axes.plot(*at.T, marker, color="black", fillstyle="none", label=name)
         unit = f" ({self.unit})" if self.unit else ""
         seen = "in the plane of the curve" if self.plane is not None else "seen along its least extent"
-        axes.set(xlabel=seen + unit)
+        axes.set(xlabel=seen + unit, ylabel=f"across{unit}")
         axes.set_aspect("equal")
         axes.grid(alpha=0.3)
         figure.legend(fontsize="small", frameon=False, loc="outside lower center", ncols=3)

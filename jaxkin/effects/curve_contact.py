@@ -4,13 +4,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from jaxtyping import Bool, Float
 
+from jaxkin._guesses import Result
+from jaxkin.effects.pose_axis import drive_axis
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.headings import with_unit
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.motion import Motion
 
 IN_THE_WAY = 1e-6
 """Depth, over the size of a profile, from which on something is in the way: far above rounding, and below what can be
@@ -19,8 +24,8 @@ made."""
 PerPose = Float[np.ndarray, " poses"]
 
 
-@dataclass(frozen=True, eq=False)
-class CurveContact:
+@dataclass(frozen=True, eq=False, repr=False)
+class CurveContact(Result):
     """The contact of one joint along a curve, or over a surface along one of its coordinates, at each pose.
 
     NaN where the pose is not closed; lengths in the unit of the mechanism. Of two curves of which that of part 1 is
@@ -57,10 +62,12 @@ class CurveContact:
         return (self.clearance < 0) | (self.depth > 0) | (self.beyond > 0)
 
 
-@dataclass(frozen=True, eq=False)
-class CurveContacts:
+@dataclass(frozen=True, eq=False, repr=False)
+class CurveContacts(Result):
     """The contacts of all joints along curves over a motion. Prints, draws and saves itself."""
 
+    motion: Motion
+    """The motion that was looked at."""
     contacts: tuple[CurveContact, ...]
     unit: str
     """Unit of all lengths."""
@@ -115,11 +122,11 @@ class CurveContacts:
         return f"{value:.4g} {self.unit}".rstrip()
 
     def plot(self, path: str | Path) -> Path:
-        """Draw how deep followers pass through profiles, and beyond ends, over the poses; returns the path."""
+        """Draw how deep followers pass through profiles, and beyond ends, over the drive; returns the path."""
         names, rows = self._rows(("depth", "beyond"))
         title = "contacts on curves" if self.holds else "contacts on curves that are not possible"
         label = f"depth, distance beyond ends ({self.unit})" if self.unit else "depth, distance beyond ends"
-        return draw_lines(names, rows, label, title, Path(path))
+        return draw_lines(names, rows, label, title, Path(path), axis=drive_axis(self.motion))
 
     def save(self, path: str | Path) -> Path:
         """Write all numbers as comma-separated values, a row a pose; returns the path."""

@@ -45,7 +45,7 @@ def curve_contacts(motion: Motion) -> CurveContacts:
             found += _of_joint(joint, np.where(closed[:, None], np.asarray(q, float), np.nan))
     if not found:
         raise ValueError("the mechanism has no joints along curves or over surfaces, such as jk.cam")
-    return CurveContacts(tuple(found), motion.mechanism.unit)
+    return CurveContacts(motion, tuple(found), motion.mechanism.unit)
 
 
 def _of_joint(joint: Joint, q: Float[np.ndarray, "poses freedoms"]) -> list[CurveContact]:

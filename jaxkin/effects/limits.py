@@ -16,6 +16,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin._arguments import by_name, check_known, check_mechanism, several
+from jaxkin._guesses import Result
 from jaxkin.effects.determined_drive import check_determined
 from jaxkin.effects.limit_search import CoordinateRange, FoundLimit, LimitKind, find_limit, why_locked, why_singular
 from jaxkin.effects.mode_plot import draw_modes
@@ -37,8 +38,8 @@ Ranges = Mapping[JointCoordinate, tuple[float, float]]
 """The lowest and the highest displacement of coordinates, from the assembled pose."""
 
 
-@dataclass(frozen=True)
-class Limit:
+@dataclass(frozen=True, repr=False)
+class Limit(Result):
     """One end of the range of a drive."""
 
     value: float
@@ -53,8 +54,8 @@ class Limit:
     """Displacements of each joint at the limit; empty where there is none."""
 
 
-@dataclass(frozen=True, eq=False)
-class Limits:
+@dataclass(frozen=True, eq=False, repr=False)
+class Limits(Result):
     """The reachable range of a drive. Prints, draws and saves itself."""
 
     drive: str

@@ -17,6 +17,7 @@ from jax import dtypes
 from jaxtyping import Float, Int
 
 from jaxkin._arguments import by_name
+from jaxkin._guesses import Result
 from jaxkin._names import counted, listed, nearest
 from jaxkin.effects.assembly_modes import AssemblyModes
 from jaxkin.effects.grid_steps import GridSteps
@@ -36,8 +37,8 @@ SAME_VALUE = 1e-9
 """Distance of a value of the grid from that of the modes, over the range, at which it is replaced: rounding."""
 
 
-@dataclass(frozen=True, eq=False)
-class ModeRegions:
+@dataclass(frozen=True, eq=False, repr=False)
+class ModeRegions(Result):
     """Which assembly modes a path over two inputs connects. Prints, draws and saves itself."""
 
     modes: AssemblyModes
@@ -92,7 +93,8 @@ class ModeRegions:
         """Draw for each region how many poses it has at each node, into a picture file; returns its path."""
         one, other = (float(self.modes.inputs[name]) for name in self.inputs)
         titles = [f"mode{'' if len(modes) == 1 else 's'} {', '.join(self._numbers(modes))}" for modes in self.regions]
-        return draw_regions(self.inputs, self.poses, titles, (one, other), Path(path))
+        unit = self.modes.motion.mechanism.unit
+        return draw_regions(self.inputs, self.poses, titles, (one, other), unit, Path(path))
 
     def save(self, path: str | Path) -> Path:
         """Write both inputs and the number of poses of each region as comma-separated values, a row a node."""

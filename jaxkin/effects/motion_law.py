@@ -21,6 +21,7 @@ from jaxtyping import Array, Float
 
 from jaxkin._arguments import numbers, one_number, several, whole_number
 from jaxkin._files import save_figure
+from jaxkin._guesses import Result
 from jaxkin._names import closest
 from jaxkin._traced import traced
 from jaxkin.effects.pose_plot import save_rows
@@ -113,8 +114,8 @@ class Segment:
     """What is added to the displacement: radians, or the unit of the mechanism."""
 
 
-@dataclass(frozen=True)
-class MotionLaw:
+@dataclass(frozen=True, repr=False)
+class MotionLaw(Result):
     """Displacement over time: call it with times. Before it begins it is at its start, and after its end it stays."""
 
     segments: tuple[Segment, ...]

@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin._files import DPI, quoted, save_figure, save_table, text_width
+from jaxkin.effects.pose_axis import PoseAxis
 from jaxkin.geometry.headings import coordinate_with_unit
 from jaxkin.joints.joint import Joint
 
@@ -35,16 +36,14 @@ def draw_lines(
     title: str,
     path: Path,
     *,
-    at: Float[np.ndarray, " poses"] | None = None,
-    along: str = "pose",
+    axis: PoseAxis | None = None,
     marks: Sequence[tuple[float, str]] = (),
 ) -> Path:
     """Draw one line a row over the poses into a picture file; returns its path.
 
     `label` says what the numbers are; given for each row, rows of one label have axes of their own, so that angles and
-    lengths are not drawn to one scale. Of more than `NAMED` rows the largest are named, and the others grey. With `at`
-    they are drawn over these numbers instead, which `along` names. `marks` are places on the line of zero, each with a
-    marker of matplotlib.
+    lengths are not drawn to one scale. Of more than `NAMED` rows the largest are named, and the others grey. With an
+    `axis` they are drawn over its numbers. `marks` are places on the line of zero, each with a marker of matplotlib.
     """
     from matplotlib.figure import Figure
 
@@ -56,7 +55,7 @@ def draw_lines(
     heights = [max(4.0 if len(groups) > 1 else 4.8, 3.4 + 0.22 * count) for count in lines]
     figure = Figure(figsize=(_WIDTH, sum(heights)), layout="constrained")
     panels = figure.subfigures(len(groups), 1, squeeze=False, height_ratios=heights)[:, 0]
-    across = np.arange(rows.shape[1]) if at is None else at
+    across, along = axis or PoseAxis(np.arange(rows.shape[1]), "pose")
     for panel, group, many in zip(panels, groups, columns, strict=True):
         axes = panel.add_subplot()
         _lines(axes, across, [names[k] for k in group], rows[group])
@@ -66,7 +65,7 @@ def draw_lines(
         axes.axhline(0.0, color="0.6", linewidth=0.8, zorder=1)
         for place, marker in marks:
             axes.plot(place, 0.0, marker, color="black")
-        axes.set(xlabel=along, ylabel=labels[group[0]] if group else label)
+        axes.set(xlabel=_fitted(along), ylabel=labels[group[0]] if group else label)
         axes.grid(alpha=0.3)
         if group:
             panel.legend(

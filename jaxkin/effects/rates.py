@@ -20,7 +20,9 @@ from jax import dtypes
 from jaxtyping import Array, Bool, Float
 
 from jaxkin._arguments import by_name, check_motion, numbers
+from jaxkin._guesses import Result
 from jaxkin._names import nearest
+from jaxkin.effects.pose_axis import drive_axis
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.effects.pose_shards import in_shards
 from jaxkin.geometry.movements import is_length
@@ -49,8 +51,8 @@ GROUP = 2**12
 """Largest number of poses of such a group: groups of a quarter as many take a third longer."""
 
 
-@dataclass(frozen=True, eq=False)
-class Rates:
+@dataclass(frozen=True, eq=False, repr=False)
+class Rates(Result):
     """Derivatives of a motion with respect to time, of one order. A pytree; every array has the poses first.
 
     Rates are zero at poses that did not close, and NaN at NONFINITE poses: `motion.status` tells which. At MISFIT poses
@@ -111,10 +113,10 @@ class Rates:
         return "\n".join(lines)
 
     def plot(self, path: str | Path) -> Path:
-        """Draw the rates of all joint coordinates over the poses into a picture file; returns its path."""
+        """Draw the rates of all joint coordinates over the drive into a picture file; returns its path."""
         names, units, rows = self._rows()
         labels = [f"{NAMES[self.order].lower()} of joints ({unit})" for unit in units]
-        return draw_lines(names, rows, labels, "", Path(path))
+        return draw_lines(names, rows, labels, "", Path(path), axis=drive_axis(self.motion))
 
     def save(self, path: str | Path) -> Path:
         """Write them as comma-separated values, a row a pose and a column a joint coordinate; returns the path."""

@@ -9,6 +9,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from jaxkin._files import save_figure
+from jaxkin.geometry.headings import coordinate_label
 
 MAX_PANELS = 12
 """Regions that are drawn at most: those with the most poses."""
@@ -21,11 +22,13 @@ def draw_regions(
     counts: Int[np.ndarray, "regions first second"],
     titles: Sequence[str],
     marked: tuple[float, float],
+    unit: str,
     path: Path,
 ) -> Path:
     """Draw a panel a region, coloured by its number of poses at each node of two inputs; returns the path.
 
     `titles` are those of the regions; the inputs `marked`, radians or lengths, are drawn as a cross.
+    `unit` is that of lengths, "" where it is not known.
     """
     from matplotlib.colors import BoundaryNorm
     from matplotlib.figure import Figure
@@ -45,7 +48,7 @@ def draw_regions(
         poses = np.where(counts[number] > 0, counts[number], np.nan)
         drawn = axes.pcolormesh(first, second, poses.T, cmap="viridis", norm=norm, shading="nearest")
         axes.plot(*marked, "+", color="crimson", markersize=10)
-        axes.set(xlabel=one, ylabel=other)
+        axes.set(xlabel=coordinate_label(one, unit), ylabel=coordinate_label(other, unit))
         axes.set_title(titles[number], fontsize="medium")
     if drawn is not None:
         figure.colorbar(drawn, ax=every, label="poses for the same inputs", ticks=np.arange(1, most + 1))

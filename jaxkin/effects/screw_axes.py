@@ -9,6 +9,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from jaxkin._guesses import Result
 from jaxkin.effects.rates import Rates
 from jaxkin.geometry.movements import is_length
 
@@ -17,8 +18,8 @@ ROUNDING = 100.0
 turn: a few joints' rates that cancel leave some units of rounding, and axes from these are anywhere."""
 
 
-@dataclass(frozen=True, eq=False)
-class ScrewAxes:
+@dataclass(frozen=True, eq=False, repr=False)
+class ScrewAxes(Result):
     """The instantaneous screw axes of a part: it turns about them, and slides along them. A pytree."""
 
     direction: Float[Array, "poses 3"]

@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin._guesses import Result
 from jaxkin.effects.limit_search import CoordinateRange, LimitKind, find_limit, why_locked
 from jaxkin.effects.mode_search import PoseFeatures
 from jaxkin.effects.motion_curve import MotionCurve
@@ -26,8 +27,8 @@ from jaxkin.mobility.loop_freedoms import loop_freedoms
 from jaxkin.solve.status import Status
 
 
-@dataclass(frozen=True, eq=False)
-class Singularities:
+@dataclass(frozen=True, eq=False, repr=False)
+class Singularities(Result):
     """Points on the singularity curves that bound a workspace. Prints, draws and saves itself."""
 
     workspace: Workspace

@@ -16,6 +16,7 @@ from jaxtyping import Float
 
 from jaxkin._arguments import check_known, check_motion, one_number
 from jaxkin._files import save_figure, whole
+from jaxkin._guesses import Result
 from jaxkin._names import nearest
 from jaxkin.effects.pose_runs import PoseRun, off_between, placements, runs_of, sagitta
 from jaxkin.geometry.isosurface import zero_surface
@@ -47,8 +48,8 @@ MESH_FILES = (".stl", ".ply", ".obj", ".glb")
 """Suffixes of the files that `SweptVolume.save` writes."""
 
 
-@dataclass(frozen=True, eq=False)
-class SweptVolume:
+@dataclass(frozen=True, eq=False, repr=False)
+class SweptVolume(Result):
     """The space that a part takes up along a motion. Prints, draws and saves itself."""
 
     part: str

@@ -14,6 +14,7 @@ from jaxtyping import Array, Float
 
 from jaxkin._arguments import positive_number
 from jaxkin._files import quoted, save_table
+from jaxkin._guesses import Result
 from jaxkin._names import closest
 from jaxkin._traced import traced
 from jaxkin.effects.tolerance import Tolerance, named
@@ -24,8 +25,8 @@ SIZE_OF_NONE = 1e-13
 """Sensitivities that are this much smaller than the largest one, limits counted in, are rounding of none."""
 
 
-@dataclass(frozen=True, eq=False)
-class Tolerances:
+@dataclass(frozen=True, eq=False, repr=False)
+class Tolerances(Result):
     """How far a measure deviates for given tolerances. Prints, draws and saves itself.
 
     Rows are the lengths, then the clearances, in the order in which they were given.
@@ -208,8 +209,8 @@ class Tolerances:
         return save_table(heading, names, [np.asarray(column, float) for column in columns], Path(path))
 
 
-@dataclass(frozen=True)
-class AllowedTolerances:
+@dataclass(frozen=True, repr=False)
+class AllowedTolerances(Result):
     """The tolerances that a wanted error of a measure allows, in first order."""
 
     error: float

@@ -15,6 +15,7 @@ from jax import dtypes
 from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin._arguments import by_name, check_known, check_mechanism, numbers, several
+from jaxkin._guesses import Result
 from jaxkin._names import listed, nearest
 from jaxkin.effects.determined_drive import check_determined
 from jaxkin.effects.grid_flood import Flooded, flood, nodes_around
@@ -37,8 +38,8 @@ from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 
 
-@dataclass(frozen=True, eq=False)
-class Workspace:
+@dataclass(frozen=True, eq=False, repr=False)
+class Workspace(Result):
     """A map over two inputs; arrays have the first input as their first axis. Prints, draws and saves itself."""
 
     inputs: Mapping[str, Float[np.ndarray, " values"]]

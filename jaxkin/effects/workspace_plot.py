@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from jaxkin._files import save_figure
-from jaxkin.geometry.movements import is_length
+from jaxkin.geometry.headings import coordinate_label
 from jaxkin.solve.status import Status
 
 FLAT = 1e-9
@@ -65,7 +65,7 @@ def draw_workspace(
         drawn = axes.pcolormesh(first, second, values.T, cmap="viridis", shading="nearest", vmin=0.0)
         figure.colorbar(drawn, ax=axes, label="sigma_min")
     unit = f" ({found.unit})" if found.unit else ""
-    along = [name + (unit if is_length(name.rpartition(".")[2]) else " (rad)") for name in found.inputs]
+    along = [coordinate_label(name, found.unit) for name in found.inputs]
     axes.set(xlabel=along[0], ylabel=along[1])
     axes.set_title("inputs: how near the loops are to singular", fontsize="medium")
     if singular is not None:

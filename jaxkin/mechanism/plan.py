@@ -6,6 +6,7 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from jaxkin._guesses import Result
 from jaxkin._names import listed
 from jaxkin._traced import traced
 from jaxkin.joints.joint import JointCoordinate
@@ -24,8 +25,8 @@ if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
 
-@dataclass(frozen=True)
-class Plan:
+@dataclass(frozen=True, repr=False)
+class Plan(Result):
     """What a drive moves, in the order in which the solver of `sweep` solves it. `print` it.
 
     Every step is a block of equations of the solver (`jaxkin.solve.system.equation_blocks`), in the same order.

@@ -14,6 +14,7 @@ from itertools import accumulate
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin._guesses import Result
 from jaxkin._memory import once_for_each
 from jaxkin._names import counted, listed
 from jaxkin.joints.subgroups import Subgroup
@@ -35,8 +36,8 @@ _MOST_IDLE = 8
 """Idle motions that it names at most."""
 
 
-@dataclass(frozen=True)
-class Mobility:
+@dataclass(frozen=True, repr=False)
+class Mobility(Result):
     """Freedoms of a mechanism at its assembled pose and beside it."""
 
     freedoms: int

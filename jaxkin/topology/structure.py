@@ -18,6 +18,7 @@ from jaxtyping import Int
 
 from jaxkin._arguments import several
 from jaxkin._files import save_figure
+from jaxkin._guesses import Result
 from jaxkin.topology.checks import check_chords, check_connected, check_letters, check_names, merged_name
 from jaxkin.topology.components import connected
 from jaxkin.topology.describe import describe
@@ -47,8 +48,8 @@ class LoopGroup:
     """Numbers of the couplings between its joints."""
 
 
-@dataclass(frozen=True)
-class Structure:
+@dataclass(frozen=True, repr=False)
+class Structure(Result):
     """Parts, joints, loops and structure elements of a mechanism, by name; made by `structure`.
 
     The fields hold the arguments of `structure`; equality and hash depend on them only. The properties are computed

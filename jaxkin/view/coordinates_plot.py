@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from jaxkin.effects.pose_axis import drive_axis
 from jaxkin.effects.pose_plot import draw_lines
 from jaxkin.geometry.movements import is_length
-from jaxkin.view.labels import headline, inputs
+from jaxkin.view.labels import headline
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.motion import Motion
@@ -21,8 +22,8 @@ _REST = 1e-9
 def draw_coordinates(motion: Motion, path: Path) -> None:
     """Draw the coordinates that move into a picture file, degrees and lengths on axes of their own.
 
-    They are drawn over the drive where a single one only rises or only falls, else over the poses; those of poses that
-    are not on the branch are left out.
+    They are drawn over the drive where that is one displacement which only rises or only falls, else over the poses;
+    those of poses that are not on the branch are left out.
     """
     names, lengths = [], []
     for joint in motion.mechanism.all_joints:
@@ -40,16 +41,6 @@ def draw_coordinates(motion: Motion, path: Path) -> None:
     shown = np.where(of_lengths, 1.0, 180.0 / np.pi)[:, None] * rows
     labels = [label[lengths[k]] for k in moving]
     title = headline(motion)[0] if len(moving) else "nothing moves"
-    draw_lines([names[k] for k in moving], shown[moving], labels or "displacement", title, path, **_across(motion))
-
-
-def _across(motion: Motion) -> dict:
-    """Find what the coordinates are drawn over, as `draw_lines` takes it: the drive, or nothing for the poses."""
-    if len(driven := inputs(motion)) != 1:
-        return {}
-    (drive,) = driven
-    steps = np.diff(drive.values)
-    if not len(steps) or not (np.all(steps > 0) or np.all(steps < 0)):
-        return {}
-    unit = drive.suffix.strip().replace("°", "deg")
-    return {"at": drive.values, "along": f"{drive.name} ({unit})" if unit else drive.name}
+    draw_lines(
+        [names[k] for k in moving], shown[moving], labels or "displacement", title, path, axis=drive_axis(motion)
+    )

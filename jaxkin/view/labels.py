@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin._names import counted
-from jaxkin.geometry.movements import is_length
+from jaxkin.effects.pose_axis import shown_input
 from jaxkin.geometry.units import unit_name
 from jaxkin.solve.status import Status
 
@@ -89,8 +89,5 @@ def _range(entry: Input) -> str:
 
 
 def _input(motion: Motion, key: str, values: Float[np.ndarray, " poses"]) -> Input:
-    joint, _, coordinate = key.rpartition(".")
-    name = joint if len(motion.mechanism.joints[joint].coordinates) == 1 else key
-    if is_length(coordinate):
-        return Input(name, values, f" {motion.mechanism.unit}".rstrip())
-    return Input(name, np.rad2deg(values), "°")
+    shown = shown_input(motion, key, values)
+    return Input(shown.name, shown.values, "°" if shown.unit == "deg" else f" {shown.unit}".rstrip())

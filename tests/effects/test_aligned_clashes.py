@@ -10,6 +10,7 @@ from scipy.spatial.transform import Rotation
 
 import jaxkin as jk
 from reference.drawn_parts import box, loaded
+from reference.mechanisms import planar_fourbar
 
 LENGTH = 20.0
 SHARES = np.array([-0.05, 0.0, 1e-3, 0.05, 0.25, 0.45, 0.5, 0.7, 0.95, 0.999, 1.0])
@@ -155,8 +156,9 @@ def test_equal_lengths_are_told_at_their_first_pose():
     """Of 50 poses at 7.5, but for rounding, the first is told; and of two depths of 2 the first."""
     noise = 1e-14 * np.cos(7.0 * np.arange(50))
     rows = np.stack([7.5 + noise, np.where(np.arange(50) < 20, 1.0, -2 - noise)])
+    motion = planar_fourbar().sweep({"A": np.linspace(0, 1, 50)})
     found = jk.Clashes(
-        (("base", "box"), ("base", "arm")), np.zeros(2, bool), rows, np.ones(50, bool), within=10.0, unit="mm"
+        motion, (("base", "box"), ("base", "arm")), np.zeros(2, bool), rows, np.ones(50, bool), within=10.0, unit="mm"
     )
     assert "base - box: nearest 7.5 mm at pose 0" in str(found)
     assert "base - arm: clash at 30 poses from pose 20 on, deepest 2 mm at pose 20" in str(found)

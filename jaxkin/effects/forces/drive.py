@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 import jax
 import jax.numpy as jnp
-import numpy as np
 from jax import lax
 from jaxtyping import Array, Float, Int
 
-from jaxkin._names import listed
 from jaxkin.effects.forces.acting import (
     STANDARD_GRAVITY,
     Acting,
@@ -26,9 +22,9 @@ from jaxkin.effects.forces.acting import (
     loads_and_frictions,
 )
 from jaxkin.effects.forces.balance import tree_wrenches
-from jaxkin.effects.forces.changes import ORDER, Changes, by_joint, changes
+from jaxkin.effects.forces.changes import Changes, by_joint, changes
+from jaxkin.effects.forces.drive_result import DriveForces
 from jaxkin.effects.forces.friction import with_friction
-from jaxkin.effects.forces.friction_result import Friction
 from jaxkin.effects.forces.given import Applied
 from jaxkin.effects.forces.joint_screws import coordinates_of_motions
 from jaxkin.effects.forces.masses import Masses
@@ -36,88 +32,15 @@ from jaxkin.effects.forces.moving_parts import MovingParts
 from jaxkin.effects.forces.pose_groups import by_groups, on_cores
 from jaxkin.effects.forces.potential import CarriedWeights, potential, weights_along_tree
 from jaxkin.effects.forces.screws import Wrench
-from jaxkin.effects.forces.wrenches import Loads, acting_on, loads, metres_of, units_of
-from jaxkin.effects.pose_plot import draw_lines, save_rows
+from jaxkin.effects.forces.wrenches import Loads, acting_on, loads, metres_of
 from jaxkin.geometry.units import METRES
 from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.joint_motion import JointDisplacements
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.known_motion import Inputs, KnownDrive, KnownMotion, known_motion
 from jaxkin.mechanism.motion import Motion
-from jaxkin.mechanism.singularity import singular_report
-from jaxkin.mobility.infeasible_drive import resting_freedoms
 from jaxkin.solve.execution.compiler import whole_program
 from jaxkin.solve.status import is_closed_on_branch
-
-
-@dataclass(frozen=True, eq=False)
-class DriveForces:
-    """The force or torque of each driven coordinate in each pose. A pytree; NaN at poses that are not closed
-    (`motion.closed`).
-
-    Positive along the coordinate: it acts on part 2 of the joint, and its opposite on part 1.
-    """
-
-    motion: Motion
-    forces: dict[str, Float[Array, " poses"]]
-    """By "joint.coordinate": newton metres of an angle, newtons of a length."""
-    powers: dict[str, Float[Array, " poses"]]
-    """Power that each drive delivers, watts; zero at rest."""
-    friction: Friction | None = None
-    """What friction does; None where no joint has any."""
-
-    @property
-    def power(self) -> Float[Array, " poses"]:
-        """Power that all drives deliver together, watts."""
-        return sum(self.powers.values(), jnp.zeros(len(self.motion)))
-
-    @property
-    def units(self) -> dict[str, str]:
-        """Unit of the force of each coordinate."""
-        return {name: units_of(self.motion, name)[0] for name in self.forces}
-
-    def __str__(self) -> str:
-        closed = int(np.sum(self.motion.closed))
-        lines = [f"Drive forces in {closed} closed poses of {len(self.motion)}"]
-        width = max(map(len, self.forces))
-        for name, values in self.forces.items():
-            lines.append(f"  {name:<{width}}  {_range(np.asarray(values), self.units[name])}")
-        power = np.asarray(self.power)
-        if np.any(np.nan_to_num(power)):
-            lines.append(f"  {'power':<{width}}  {_range(power, 'W')}")
-        if free := resting_freedoms(self.motion.mechanism.linkage, self.forces):
-            lines.append(f"  without a drive, and counted as held: {listed(free)} (by what load, jk.reactions says)")
-        lines += [f"  {line}" for line in singular_report(self.motion, ORDER)]
-        lines += [f"  {line}" for line in (self.friction.lines() if self.friction else ())]
-        return "\n".join(lines)
-
-    def plot(self, path: str | Path) -> Path:
-        """Draw the forces over the poses into a picture file; returns its path."""
-        labels = [{"N m": "torque (N m)", "N": "force (N)"}[self.units[name]] for name in self.forces]
-        return draw_lines([*self.forces], self._rows(), labels, "drive forces", Path(path))
-
-    def save(self, path: str | Path) -> Path:
-        """Write forces and power as comma-separated values, one row a pose; returns the path."""
-        names = [f"{name} [{self.units[name]}]" for name in self.forces]
-        return save_rows([*names, "power [W]"], np.vstack([self._rows(), np.asarray(self.power)]), Path(path))
-
-    def _rows(self) -> np.ndarray:
-        return np.stack([np.asarray(values, float) for values in self.forces.values()])
-
-
-jax.tree_util.register_dataclass(DriveForces, data_fields=["motion", "forces", "powers", "friction"], meta_fields=[])
-
-
-def _range(values: np.ndarray, unit: str) -> str:
-    """Say the least, the largest and the root mean square of the finite values."""
-    if not np.isfinite(values).any():
-        return "unknown"
-    low, high = int(np.nanargmin(values)), int(np.nanargmax(values))
-    mean = np.sqrt(np.nanmean(values**2))
-    return (
-        f"from {values[low]:.4g} {unit} at pose {low} to {values[high]:.4g} {unit} at pose {high}, "
-        f"root mean square {mean:.4g} {unit}"
-    )
 
 
 def drive_forces(

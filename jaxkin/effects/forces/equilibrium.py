@@ -12,6 +12,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from jaxkin._arguments import by_name, check_known, check_mechanism, numbers
+from jaxkin._guesses import Result
 from jaxkin._names import listed
 from jaxkin.effects.forces.acting import STANDARD_GRAVITY, all_applied, loads_and_frictions
 from jaxkin.effects.forces.drive import drive_forces
@@ -21,8 +22,10 @@ from jaxkin.effects.forces.reactions import HELD, Reactions, reactions
 from jaxkin.effects.forces.rounding import force_terms, weights_of_all
 from jaxkin.effects.forces.vanishing import WITHIN, PerPose, vanishing
 from jaxkin.effects.forces.wrenches import units_of
+from jaxkin.effects.pose_axis import shown_input
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.headings import coordinate_with_unit
+from jaxkin.geometry.movements import is_length
 from jaxkin.linkage.coordinates import coordinates
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
@@ -35,8 +38,8 @@ NO_FORCE = 16
 horizontal plane that is drawn askew has forces of one or two."""
 
 
-@dataclass(frozen=True, eq=False)
-class Equilibrium:
+@dataclass(frozen=True, eq=False, repr=False)
+class Equilibrium(Result):
     """Where a drive is not needed within its range: in single displacements, or everywhere in an interval.
 
     Prints, draws and saves itself.
@@ -74,16 +77,17 @@ class Equilibrium:
         return self.motion.beyond_limits
 
     def __str__(self) -> str:
-        poses = f"{self.inputs[0]:.4g} to {self.inputs[-1]:.4g}"
+        unit = " rad" if not is_length(self.name.rpartition(".")[2]) else f" {self.motion.mechanism.unit}".rstrip()
+        poses = f"{self.inputs[0]:.4g} to {self.inputs[-1]:.4g}{unit}"
         if unknown := int(np.isnan(self.forces).sum()):
             poses += f"; at {unknown} of its {len(self.inputs)} poses, which are not closed, nothing is known"
         lines = [
-            f"  everywhere from {low:.9g} to {high:.9g}, indifferent{self._limited(low, high)}"
+            f"  everywhere from {low:.9g} to {high:.9g}{unit}, indifferent{self._limited(low, high)}"
             for low, high in self.indifferent
         ]
         for number, (value, (words, _)) in enumerate(zip(self.values, self._told(), strict=True)):
             over = listed([each for each, far in self.beyond_limits.items() if far[number]])
-            lines.append(f"  {value:.9g}, {words}{f', but beyond the limits of {over}' if over else ''}")
+            lines.append(f"  {value:.9g}{unit}, {words}{f', but beyond the limits of {over}' if over else ''}")
         if not lines:
             return f"No equilibrium of {self.name} from {poses}"
         count = "1 equilibrium" if len(lines) == 1 else f"{len(lines)} equilibria"
@@ -117,14 +121,14 @@ class Equilibrium:
     def plot(self, path: str | Path) -> Path:
         """Draw the drive force over the displacement, with the equilibria, into a picture file; returns its path."""
         label = f"drive force ({units_of(self.motion, self.name)[0]})"
-        marks = [(float(value), marker) for value, (_, marker) in zip(self.values, self._told(), strict=True)]
-        marks += [(float(end), "|") for interval in self.indifferent for end in interval]
+        values = np.concatenate([self.values, self.indifferent.ravel()])
+        markers = [marker for _, marker in self._told()] + ["|"] * self.indifferent.size
+        marks = list(zip(shown_input(self.motion, self.name, values).values.tolist(), markers, strict=True))
         meant = {"o": "o stable", "x": "x unstable", "d": "diamond not known", "|": "indifferent from | to |"}
         told = ", ".join(words for marker, words in meant.items() if marker in {marker for _, marker in marks})
         title = f"equilibria: {told}" if marks else "no equilibrium"
-        return draw_lines(
-            [self.name], self.forces[None], label, title, Path(path), at=self.inputs, along=self.name, marks=marks
-        )
+        axis = shown_input(self.motion, self.name, self.inputs).axis()
+        return draw_lines([self.name], self.forces[None], label, title, Path(path), axis=axis, marks=marks)
 
     def save(self, path: str | Path) -> Path:
         """Write the equilibria as comma-separated values, one row each; returns the path.

@@ -10,13 +10,14 @@ import jax
 import numpy as np
 from jaxtyping import Array, Bool, Float
 
+from jaxkin._guesses import Result
 from jaxkin.effects.forces.friction_of import undetermined_friction
 from jaxkin.effects.forces.undetermined import Undetermined, undetermined
 from jaxkin.mechanism.motion import Motion
 
 
-@dataclass(frozen=True, eq=False)
-class Friction:
+@dataclass(frozen=True, eq=False, repr=False)
+class Friction(Result):
     """The friction of joints in each pose, by joint. A pytree; NaN at poses that are not closed (`motion.closed`), or
     lock."""
 

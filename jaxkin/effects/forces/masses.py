@@ -12,6 +12,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from jaxkin._arguments import by_name, check_mechanism, check_one, one_number
+from jaxkin._guesses import Result
 from jaxkin._names import closest, match_parts, nearest
 from jaxkin._traced import traced
 from jaxkin.geometry.inertial import exceeds_sum, of_density_one
@@ -40,7 +41,7 @@ DENSITIES = {
     "pla": 1240.0,
     "wood": 600.0,
 }
-"""Material -> usual density, kg/m^3, as handbooks round it; a certain alloy may be a few percent off."""
+"""Material -> usual density, kg/m^3, as handbooks round it: an alloy may be a few percent off."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,8 +64,8 @@ class Mass:
 jax.tree_util.register_dataclass(Mass, data_fields=["mass", "centre", "inertia"], meta_fields=[])
 
 
-@dataclass(frozen=True, eq=False)
-class Masses:
+@dataclass(frozen=True, eq=False, repr=False)
+class Masses(Result):
     """Mass, centre and inertia of all parts of a mechanism, in their assembled pose. A pytree."""
 
     parts: tuple[str, ...]
@@ -91,8 +92,7 @@ class Masses:
     def at(self, motion: Motion | Pose, index: int = 0) -> Masses:
         """Move the masses with their parts to pose `index` of a motion: those of `motion.mechanism.at(motion, index)`.
 
-        Raises ValueError for a pose that is not there or not closed, and for the motion of a mechanism with other
-        parts.
+        Raises ValueError for a pose that is not there or not closed, and for a mechanism with other parts.
         """
         motion = motion_of(motion, "masses in another pose")
         check_one("masses in another pose", "the masses of one mechanism", self.batch)

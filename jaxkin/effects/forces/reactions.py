@@ -14,6 +14,7 @@ import numpy as np
 from jaxtyping import Array, Float, Int
 
 from jaxkin._grouped import MAX_LINES
+from jaxkin._guesses import Result
 from jaxkin._named import Named
 from jaxkin._names import listed, nearest
 from jaxkin.effects.forces.acting import (
@@ -37,6 +38,7 @@ from jaxkin.effects.forces.pose_groups import by_groups, on_cores
 from jaxkin.effects.forces.screws import Scale, cross
 from jaxkin.effects.forces.undetermined import Undetermined, undetermined
 from jaxkin.effects.forces.wrenches import Loads, acting_on, loads, units_of
+from jaxkin.effects.pose_axis import drive_axis
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.units import METRES
@@ -54,8 +56,8 @@ HELD = 1e-6
 far above rounding."""
 
 
-@dataclass(frozen=True, eq=False)
-class Reactions:
+@dataclass(frozen=True, eq=False, repr=False)
+class Reactions(Result):
     """What each joint transmits from part 1 to part 2 in each pose. A pytree; NaN at poses that are not closed
     (`motion.closed`).
 
@@ -128,13 +130,14 @@ class Reactions:
         return [*found[:MAX_HELD], *more]
 
     def plot(self, path: str | Path, joints: Sequence[str] | None = None) -> Path:
-        """Draw the size of the forces of some joints, by default of all; returns the path."""
+        """Draw the size of the forces of some joints over the drive, by default of all; returns the path."""
         forces = {name: np.linalg.norm(np.asarray(rows), axis=1) for name, rows in self.forces.items()}
         for name in joints or ():
             if name not in forces:
                 raise ValueError(f"there is no joint {name!r}{nearest(str(name), forces)}")
         order = list(joints or forces)
-        return draw_lines(order, np.stack([forces[name] for name in order]), "force (N)", "joint reactions", Path(path))
+        rows, axis = np.stack([forces[name] for name in order]), drive_axis(self.motion)
+        return draw_lines(order, rows, "force (N)", "joint reactions", Path(path), axis=axis)
 
     def save(self, path: str | Path) -> Path:
         """Write forces, torques and the points that these are about as comma-separated values, one row a pose; returns

@@ -11,6 +11,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from jaxkin._arguments import check_motion
+from jaxkin._guesses import Result
 from jaxkin._names import listed, nearest
 from jaxkin.effects.forces.drive import drive_forces
 from jaxkin.effects.forces.given import joint_load
@@ -18,6 +19,7 @@ from jaxkin.effects.forces.places import places
 from jaxkin.effects.forces.reactions import reactions
 from jaxkin.effects.forces.screws import velocity_at
 from jaxkin.effects.forces.wrenches import nan_unless_closed
+from jaxkin.effects.pose_axis import drive_axis
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.effects.rates import velocities
 from jaxkin.geometry.movements import is_length
@@ -31,11 +33,13 @@ PASSES = 1e-9
 moves the output, one and more."""
 
 
-@dataclass(frozen=True, eq=False)
-class Transmission:
+@dataclass(frozen=True, eq=False, repr=False)
+class Transmission(Result):
     """From the driven coordinate of a motion to an output, in each pose. A pytree; NaN at poses that are not closed
     (`motion.closed`)."""
 
+    motion: Motion
+    """The motion that was given."""
     input: str
     output: str
     """The coordinates, "joint.coordinate"."""
@@ -67,10 +71,11 @@ class Transmission:
         return "\n".join(lines)
 
     def plot(self, path: str | Path) -> Path:
-        """Draw the transmission angle over the poses into a picture file; returns its path."""
+        """Draw the transmission angle over the drive into a picture file; returns its path."""
         degrees = np.degrees(np.asarray(self.angle, float))
         title = f"{self.input} to {self.output}"
-        return draw_lines([f"through {self.joint}"], degrees[None], "transmission angle (deg)", title, Path(path))
+        names, label = [f"through {self.joint}"], "transmission angle (deg)"
+        return draw_lines(names, degrees[None], label, title, Path(path), axis=drive_axis(self.motion))
 
     def save(self, path: str | Path) -> Path:
         """Write ratio, advantage and angle as comma-separated values, one row a pose; returns the path."""
@@ -79,7 +84,7 @@ class Transmission:
 
 
 jax.tree_util.register_dataclass(
-    Transmission, data_fields=["ratio", "advantage", "angle"], meta_fields=["input", "output", "joint"]
+    Transmission, data_fields=["motion", "ratio", "advantage", "angle"], meta_fields=["input", "output", "joint"]
 )
 
 
@@ -141,4 +146,4 @@ def transmission(motion: Motion, output: str, *, joint: str | None = None) -> Tr
     ratio = nan_unless_closed(motion, speeds.displacements[number][:, index])
     # the arc sine of a right angle has no derivative, and half of its digits
     angle = jnp.where(passes, jnp.arctan2(along, jnp.where(passes, across, 1.0)), jnp.nan)
-    return Transmission(name, full, through, ratio, -1.0 / force, angle)
+    return Transmission(motion, name, full, through, ratio, -1.0 / force, angle)

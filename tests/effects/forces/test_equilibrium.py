@@ -37,7 +37,7 @@ def test_a_pendulum_hangs_or_stands():
     start = np.arctan2(0.4, 0.3)
     np.testing.assert_allclose(found.values, [-np.pi / 2 - start, np.pi / 2 - start], atol=1e-9)
     assert found.stable.tolist() == [True, False] and found.unstable.tolist() == [False, True]
-    assert found.name == "A.phi" and "2 equilibria of A.phi from -3 to 3" in str(found) and "unstable" in str(found)
+    assert found.name == "A.phi" and "2 equilibria of A.phi from -3 to 3 rad" in str(found) and "unstable" in str(found)
     np.testing.assert_allclose(found.motion.inputs["A.phi"], found.values)
 
 
@@ -103,7 +103,7 @@ def test_a_spring_against_a_weight(tmp_path):
     assert found.plot(tmp_path / "equilibrium.png").stat().st_size > 10_000
     assert found.save(tmp_path / "equilibrium.csv").read_text().splitlines()[0] == 'pose,"A.phi [rad]","stable"'
     none = jk.equilibrium(mechanism, {"A": np.linspace(0.0, 1.0, 7)}, own, **given)
-    assert len(none.values) == 0 and str(none) == "No equilibrium of A.phi from 0 to 1"
+    assert len(none.values) == 0 and str(none) == "No equilibrium of A.phi from 0 to 1 rad"
     none.plot(tmp_path / "none.png")
 
 
@@ -228,7 +228,7 @@ def test_poses_of_which_nothing_is_known_are_told():
     unknown = int(np.sum(~np.asarray(mechanism.sweep({"D": np.linspace(-3.0, 3.0, 9)}).closed)))
     assert 0 < unknown < 9
     assert str(found) == (
-        f"No equilibrium of D.phi from -3 to 3; at {unknown} of its 9 poses, which are not closed, nothing is known"
+        f"No equilibrium of D.phi from -3 to 3 rad; at {unknown} of its 9 poses, which are not closed, nothing is known"
     )
 
 
