@@ -7,12 +7,35 @@ motion.save("out/")
 """
 
 import functools
+import sys
+import types
 import typing
 
 if typing.TYPE_CHECKING:
     from jaxkin._api import *  # noqa: F403
 
 __version__ = "0.1.0"
+
+
+class _Floor(types.ModuleType):
+    """A package within jaxkin: whoever calls it, as in `jk.mobility(mechanism)`, is told what to write."""
+
+    def __call__(self, *args: typing.Any, **named: typing.Any) -> typing.NoReturn:
+        from jaxkin._guesses import called
+
+        raise called(self.__name__)
+
+
+class _Package(types.ModuleType):
+    """jaxkin itself, of which the import system makes each package within it an attribute."""
+
+    def __setattr__(self, name: str, value: typing.Any) -> None:
+        if type(value) is types.ModuleType and value.__name__ == f"{__name__}.{name}":
+            value.__class__ = _Floor
+        super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package
 
 
 def __getattr__(name: str) -> typing.Any:

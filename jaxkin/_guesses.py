@@ -143,6 +143,14 @@ def missing(owner: str, name: str, known: list[str]) -> AttributeError:
     return _missing(owner, name, lambda name: _instead(name, known))
 
 
+def called(package: str) -> TypeError:
+    """Make the error for a package within jaxkin that is called as if it were a function: "jaxkin.mobility"."""
+    name = package.rpartition(".")[2]
+    holders = [held for held in _HELD if inspect.isfunction(getattr(getattr(sys.modules["jaxkin"], held), name, None))]
+    instead = f"; did you mean {holders[0].lower()}.{name}(...)?" if holders else _instead(name, [])
+    return TypeError(f"{package} is a package of modules, and no function{instead}")
+
+
 def _missing(owner: str, name: str, instead: Callable[[str], str]) -> AttributeError:
     """Make the error for a name that an owner has not; `instead` writes its end, for names that are not private."""
     said = f"{owner} has no attribute {name!r}"

@@ -86,9 +86,18 @@ def listed(words: Sequence[str], most: int = _MAX_KNOWN) -> str:
 
 
 def closest(name: object, known: Iterable[str]) -> str:
-    """Write the end of a message that lists the known names itself: "; did you mean 'crank'?", or nothing."""
-    close = get_close_matches(str(name), list(known), n=1)
+    """Write the end of a message that lists the known names itself: "; did you mean 'crank'?", or nothing.
+
+    A name of the same words in another order comes first: joints are named by their two parts, in either order.
+    """
+    known = list(known)
+    words = _words(str(name))
+    close = [each for each in known if _words(each) == words] or get_close_matches(str(name), known, n=1)
     return f"; did you mean {close[0]!r}?" if close else ""
+
+
+def _words(name: str) -> list[str]:
+    return sorted(re.findall(r"[^\W_]+", name.casefold()))
 
 
 def counted(number: int, noun: str, none: str = "0") -> str:

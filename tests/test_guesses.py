@@ -1,6 +1,7 @@
 """Names that users try first, and that are not there: the errors say what to write instead, and that is there."""
 
 import copy
+import importlib
 import pickle
 import re
 from pathlib import Path
@@ -67,6 +68,31 @@ def test_no_advised_name_is_there_already(motion):
     names = set(_guesses._ADVICE)
     assert not names & set(dir(jk.Motion) + list(jk.Motion.__dataclass_fields__))
     assert not names & set(dir(jk)), "the advice would never be read"
+
+
+@pytest.mark.parametrize(
+    ("name", "instead"),
+    [
+        ("mobility", "; did you mean mechanism.mobility(...)?"),
+        ("solve", "; did you mean mechanism.solve(...)?"),
+        ("mechanism", "; did you mean assembly.mechanism(...)?"),
+        ("joints", "; did you mean mechanism.joints?"),
+        ("effects", ""),
+    ],
+)
+def test_packages_that_are_called_as_functions_say_what_to_write(motion, name, instead):
+    """They are names of jaxkin once anything in them was imported: Python said no more than "not callable"."""
+    importlib.import_module(f"jaxkin.{name}")
+    with pytest.raises(TypeError) as raised:
+        getattr(jk, name)(motion.mechanism)
+    assert str(raised.value) == f"jaxkin.{name} is a package of modules, and no function{instead}"
+
+
+@pytest.mark.parametrize("name", ["crank-ground", "Crank_Ground", "ground crank"])
+def test_a_joint_is_known_by_its_parts_in_either_order(name):
+    mechanism = jk.load(jk_example()).mechanism(fixed=["ground"])
+    with pytest.raises(ValueError, match=r"did you mean 'ground-crank'\?"):
+        mechanism.sweep({name: [0.0, 0.1]})
 
 
 def test_private_names_are_answered_without_advice(motion):
