@@ -92,7 +92,7 @@ def closest(name: object, known: Iterable[str]) -> str:
     """
     known = list(known)
     words = _words(str(name))
-    close = [each for each in known if _words(each) == words] or get_close_matches(str(name), known, n=1)
+    close = [each for each in known if words and _words(each) == words] or get_close_matches(str(name), known, n=1)
     return f"; did you mean {close[0]!r}?" if close else ""
 
 

@@ -117,6 +117,12 @@ def heaviest(names: Sequence[str], solids: Mapping[str, Part]) -> str:
     return max(names, key=lambda name: (solids[name].volume, solids[name].extent))
 
 
+def body_name(parts: Sequence[str], solids: Mapping[str, Part]) -> str:
+    """Name a body by the heaviest of its parts that have a solid, since its first may be a pin; else by the first."""
+    drawn = [part for part in parts if part in solids] if len(parts) > 1 else []
+    return heaviest(drawn, solids) if drawn else parts[0]
+
+
 def box_corners(box: Float[np.ndarray, "2 3"]) -> Float[np.ndarray, "8 3"]:
     """List the eight corners of a box, given by its lowest and its highest one."""
     return np.stack(np.meshgrid(*box.T), axis=-1).reshape(-1, 3)

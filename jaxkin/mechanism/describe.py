@@ -11,6 +11,7 @@ import numpy as np
 from jaxkin._grouped import SCREEN, grouped, kind_of, shortened
 from jaxkin._names import counted, listed
 from jaxkin.geometry.movements import is_length
+from jaxkin.geometry.part import body_name
 from jaxkin.geometry.units import unit_name
 from jaxkin.joints.evidence import Doubt, EvidenceKind
 from jaxkin.joints.joint import Joint
@@ -44,15 +45,17 @@ def describe_mechanism(mechanism: Mechanism, verbose: bool = False) -> str:
     unit = f", lengths in {unit_name(mechanism.unit)}" if mechanism.unit else ""
     moving = len(mechanism.parts) - len(mechanism.fixed)
     few = 1 if brief else _NAMED  # bodies are listed below
-    fixed = ", ".join(mechanism.fixed) if verbose else listed(mechanism.fixed, few)
+    named = _named_bodies(mechanism)
+    base = mechanism.fixed if verbose else _first(named[mechanism.fixed[0]], mechanism.fixed)
+    fixed = ", ".join(base) if verbose else listed(base, few)
     lines = [f"Mechanism of {counted(len(mechanism.parts), 'part')} ({moving} moving), fixed: {fixed}{unit}", ""]
-    lines += [*_bodies(mechanism), ""] if brief else []
+    lines += [*_bodies(mechanism, named), ""] if brief else []
     joints = [joint for joint in mechanism.all_joints if joint.freedoms or not brief]
-    lines += _joints(joints, body_of_parts(mechanism.bodies))
+    lines += _joints(joints, named)
     if couplings := [f"  {coupling.name}: {coupling}" for coupling in mechanism.linkage.couplings]:
         lines += ["", "Couplings:", *(shortened(couplings) if brief else couplings)]
     lines += ["", f"Motors: {(listed if brief else ', '.join)(mechanism.motors)}"] if mechanism.motors else []
-    loops = [_loop(loop, mechanism, verbose) for loop in mechanism.structure.loops]
+    loops = [_loop(loop, mechanism, named, verbose) for loop in mechanism.structure.loops]
     lines += ["", f"Loops: {len(loops)}", *(f"  {loop}" for loop in (shortened(loops) if brief else loops))]
     lines += ["", *describe_mobility(mechanism), *(_idle(mechanism) if verbose else [])]
     if doubtful := doubts(mechanism.linkage):
@@ -71,12 +74,22 @@ def _doubt(joint: Joint, doubt: Doubt) -> str:
     return f"{doubt} (right in {doubt.seen.right} of {doubt.seen.of} such joints){one_body}"
 
 
-def _loop(loop: Loop, mechanism: Mechanism, verbose: bool) -> str:
+def _named_bodies(mechanism: Mechanism) -> dict[str, str]:
+    """Map each part to what its body is called: as in pictures, by its heaviest part."""
+    solids = {part.name: part for part in mechanism.solids}
+    return body_of_parts({body_name(parts, solids): parts for parts in mechanism.bodies.values()})
+
+
+def _first(part: str, parts: Sequence[str]) -> list[str]:
+    """List parts with one of them first."""
+    return [part, *(other for other in parts if other != part)]
+
+
+def _loop(loop: Loop, mechanism: Mechanism, body: Mapping[str, str], verbose: bool) -> str:
     """Write a loop as its path, or, of a long one, as the bodies along it, unless `verbose`."""
     if verbose or len(str(loop)) <= _WIDE:
         return str(loop)
-    body = body_of_parts(mechanism.bodies)
-    rows = [mechanism.fixed[0] if row not in body else body[row] for row in loop.path[::2]]
+    rows = [body[mechanism.fixed[0]] if row not in body else body[row] for row in loop.path[::2]]
     told = [row for row, after in pairwise([*rows, rows[0]]) if row != after]
     return f"over the bodies {' - '.join([*told, told[0]])}" if told else str(loop)
 
@@ -88,16 +101,17 @@ def _idle(mechanism: Mechanism) -> list[str]:
     return [f"  idle: {each}" for each in mechanism.mobility().idle_motions]
 
 
-def _bodies(mechanism: Mechanism) -> list[str]:
+def _bodies(mechanism: Mechanism, named: Mapping[str, str]) -> list[str]:
     """List the bodies of more than one part, after a line with the number of all bodies."""
     several = [parts for parts in mechanism.bodies.values() if len(parts) > 1]
-    rows = [f"{parts[0]}: {len(parts)} parts, with {listed(parts[1:])}" for parts in several]
+    bodies = [_first(named[parts[0]], parts) for parts in several]
+    rows = [f"{name}: {len(others) + 1} parts, with {listed(others)}" for name, *others in bodies]
     return [f"Bodies: {len(mechanism.bodies)}", *(f"  {row}" for row in shortened(rows))]
 
 
 def _joints(joints: Sequence[Joint], body: Mapping[str, str]) -> list[str]:
-    """Write a table of joints: the bodies that a joint moves, by their first parts, if it joins other parts of them, as
-    a bush and a pin; limits if any joint has some, and what a joint is known from if that is in doubt."""
+    """Write a table of joints: the bodies that a joint moves, by what they are called, if it joins other parts of them,
+    as a bush and a pin; limits if any joint has some, and what a joint is known from if that is in doubt."""
     rows = [("joint", "parts", "bodies", "kind", "coordinates", "limits", "known from")]
     for joint in joints:
         evidence = joint.evidence

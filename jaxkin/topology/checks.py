@@ -76,11 +76,14 @@ def check_connected(graph: Graph, rows: Sequence[str], root: int) -> None:
         )
 
 
-def merged_name(parts: Iterable[str], fixed: Iterable[str]) -> str:
-    """Name the row that stands for all fixed parts, in the order of the parts: "p1&p9", of many "p1&87 more"."""
+def merged_name(parts: Iterable[str], fixed: Sequence[str]) -> str:
+    """Name the row that stands for all fixed parts, in the order of the parts: "p1&p9".
+
+    Of many the one is named that was fixed first: "base&87 more". What follows from it may be screws.
+    """
     held = set(fixed)
     names = [part for part in parts if part in held]
-    return "&".join(names) if len(names) <= MAX_MERGED else f"{names[0]}&{len(names) - 1} more"
+    return "&".join(names) if len(names) <= MAX_MERGED else f"{fixed[0]}&{len(names) - 1} more"
 
 
 def _refuse_repeats(what: str, names: Iterable[str]) -> None:

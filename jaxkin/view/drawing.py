@@ -8,7 +8,7 @@ from itertools import cycle
 from math import dist
 from typing import TYPE_CHECKING
 
-from jaxkin.geometry.part import Part, heaviest
+from jaxkin.geometry.part import Part, body_name
 from jaxkin.view.sticks import stick_parts
 
 if TYPE_CHECKING:
@@ -105,8 +105,6 @@ def body_colors(bodies: Mapping[str, Sequence[str]], fixed: Collection[str]) -> 
 
 
 def body_label(parts: Sequence[str], solids: Iterable[Part]) -> str:
-    """Tell what a legend calls a body: its heaviest part, since its first may be a pin, and how many more it has."""
-    shapes = {part.name: part for part in solids}
-    drawn = [part for part in parts if part in shapes] if len(parts) > 1 else []
-    name = heaviest(drawn, shapes) if drawn else parts[0]
+    """Tell what a legend calls a body: its heaviest part, and how many more it has."""
+    name = body_name(parts, {part.name: part for part in solids})
     return name if len(parts) == 1 else f"{name} and {len(parts) - 1} more"

@@ -233,7 +233,7 @@ def test_couplings_that_make_no_sense(make, said):
             jk.rack("A", "B", 2.0),
             "couples a turn with a slide, in this order; 'A.phi' is an angle and 'B.phi' an angle",
         ),
-        (jk.gear("A", "b", 2.0), "there is no joint 'b'; there is 'A', 'B'"),
+        (jk.gear("A", "b", 2.0), "there is no joint 'b'; did you mean 'B'?"),
         (jk.gear("A.z", "B", 2.0), "write one of 'A.phi', got 'A.z'"),
         (jk.relation({"A": 1.0, "A.phi": 2.0}), "names a coordinate twice"),
     ],

@@ -46,7 +46,7 @@ LOOSE = [("E", "handle", "knob")]
         ([*PARTS, "handle", "knob"], [*JOINTS, *LOOSE], ["ground"], None, "no chain of joints ties 'handle', 'knob'"),
         ([*PARTS, "ground&crank"], JOINTS, ["ground", "crank"], None, "part 'ground&crank' has the name"),
         (PARTS, JOINTS, ["ground"], "D", r"got the text 'D'; write chords=\['D'\]"),
-        (PARTS, JOINTS, ["ground"], ["d"], "there is no joint 'd' to be a chord; there is 'A', 'B', 'C', 'D'"),
+        (PARTS, JOINTS, ["ground"], ["d"], "there is no joint 'd' to be a chord; did you mean 'D'?"),
         (PARTS, JOINTS, ["ground"], ["D", "D"], "chord 'D' is named twice"),
         (PARTS, JOINTS, ["ground"], [], "one chord for each independent loop, 1 in all, not 0"),
         (

@@ -83,3 +83,5 @@ def test_the_row_of_many_fixed_parts_has_a_short_name():
     joints = [(f"J{k}", wall, "link") for k, wall in enumerate(walls)]
     found = structure([*walls, "link"], joints, walls)
     assert found.parts == ("wall 0&8 more", "link") and found.row_of["wall 5"] == "wall 0&8 more"
+    frame_first = structure([*walls, "link"], joints, ["wall 5", *walls[:5], *walls[6:]])
+    assert frame_first.parts == ("wall 5&8 more", "link"), "the first part is a screw as often as not"

@@ -68,3 +68,17 @@ def test_a_body_is_called_by_its_heaviest_part():
     assert body_label(("pin", "table", "screw"), parts) == "table and 2 more"
     assert body_label(("pin", "not drawn"), parts) == "pin and 1 more"
     assert body_label(("not drawn",), parts) == "not drawn"
+
+
+def test_the_text_of_a_mechanism_calls_bodies_as_its_pictures_do():
+    """A pin comes before the arm that it is in: the text called their body "pin", pictures "arm and 1 more"."""
+    box = trimesh.creation.box((1.0, 1.0, 1.0)).triangles
+    sizes = {"screw": 0.1, "base": 3.0, "pin": 0.1, "arm": 1.0}
+    assembly = Assembly(tuple(Part(name, (), box * size) for name, size in sizes.items()), "mm", "boxes.stl")
+    hinge = jk.revolute("A", "screw", "pin", point=(0, 0, 0), axis=(0, 0, 1))
+    mechanism = assembly.mechanism(fixed=["screw", "base"], rigid=[["pin", "arm"]], joints=[hinge], contacts=[])
+    labels = [body_label(parts, mechanism.solids) for parts in mechanism.bodies.values()]
+    assert labels == ["base and 1 more", "arm and 1 more"]
+    text = str(mechanism)
+    assert "fixed: base, screw" in text
+    assert "screw - pin  base - arm  revolute" in text
