@@ -110,6 +110,7 @@ class Optimum(Result):
         """Draw a matplotlib figure: the losses over the iterations, and the objective before and after. It is written
         into a picture file where a path is given."""
         from matplotlib.figure import Figure
+        from matplotlib.ticker import MaxNLocator
 
         objective, motion = self.loss if isinstance(self.loss, Objective) else None, self.motion
         drawn = objective is not None and motion is not None
@@ -123,6 +124,7 @@ class Optimum(Result):
         if np.any(known > 0) and not np.any(known < 0):  # no negative loss, as of what is to grow, has a logarithm
             axes[0].set_yscale("log")
         axes[0].set_xlabel("iteration")
+        axes[0].xaxis.set_major_locator(MaxNLocator(integer=True))
         axes[0].set_ylabel("loss with penalty")
         axes[0].legend(frameon=False)
         if objective is not None and motion is not None:

@@ -81,6 +81,8 @@ class WorkPrecision(Result):
         if alike:
             quick = min(alike, key=lambda point: point.seconds)
             end += f"; {quick.method}, as accurate, takes {quick.seconds / best.seconds:.2g} times as long"
+        if cheap is best:
+            return f"The least error, {best.error:.0e}, costs no more than larger ones here{end}."
         return f"An error of {best.error:.0e} {cost} one of {cheap.error:.0e} here{end}."
 
     def __str__(self) -> str:

@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from jaxkin._guesses import Result
+from jaxkin._names import counted
 from jaxkin.effects.pose_axis import drive_axis
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.headings import with_unit
@@ -80,11 +81,12 @@ class CurveContacts(Result):
     def __str__(self) -> str:
         lines = [line for each in self.contacts for line in self._of(each)]
         none = not any(np.isfinite(each.parameter).any() for each in self.contacts)
-        held = "no pose is closed" if none else "all are possible at all closed poses"
+        all_held = "possible" if len(self.contacts) == 1 else "all are possible"
+        held = "no pose is closed" if none else f"{all_held} at all closed poses"
         half_known = [each.joint for each in self.contacts if np.isnan(each.depth[np.isfinite(each.parameter)]).any()]
         return "\n".join(
             [
-                *(lines or [f"{len(self.contacts)} contacts on curves: {held}"]),
+                *(lines or [f"{counted(len(self.contacts), 'contact')} on curves: {held}"]),
                 *(
                     f"curve contact: joint {joint!r}: whether its curves pass through each other is not known, since "
                     "that of part 1 is open"

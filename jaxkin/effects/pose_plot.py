@@ -25,6 +25,8 @@ _WIDTH = 7.5
 """Width of the picture in inches."""
 _LETTERS = 8.33
 """Size of the letters of the legend, in points."""
+_QUARTERS = [1, 1.5, 3, 4.5, 9, 10]
+"""Steps between numbers along an axis of degrees, but for powers of ten: 15, 30, 45 and 90 divide a turn."""
 _BESIDE = 0.9
 """Inches beside each name of the legend, for its line and the gaps."""
 
@@ -46,6 +48,7 @@ def draw_lines(
     `axis` they are drawn over its numbers. `marks` are places on the line of zero, each with a marker of matplotlib.
     """
     from matplotlib.figure import Figure
+    from matplotlib.ticker import MaxNLocator
 
     labels = [label] * len(names) if isinstance(label, str) else list(label)
     groups = [[k for k, own in enumerate(labels) if own == each] for each in dict.fromkeys(labels)] or [[]]
@@ -66,6 +69,9 @@ def draw_lines(
         for place, marker in marks:
             axes.plot(place, 0.0, marker, color="black")
         axes.set(xlabel=_fitted(along), ylabel=labels[group[0]] if group else label)
+        axes.xaxis.set_major_locator(
+            MaxNLocator(steps=_QUARTERS if along.endswith(" (deg)") else None, integer=axis is None)
+        )
         axes.grid(alpha=0.3)
         if group:
             panel.legend(

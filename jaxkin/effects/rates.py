@@ -106,7 +106,9 @@ class Rates(Result):
         for name, unit, row in zip(names, units, rows, strict=True):
             if np.isfinite(row).any():
                 low, high = int(np.nanargmin(row)), int(np.nanargmax(row))
-                lines.append(f"  {name} [{unit}]: from {row[low]:.4g} at pose {low} to {row[high]:.4g} at pose {high}")
+                said = f"from {row[low]:.4g} at pose {low} to {row[high]:.4g} at pose {high}"
+                said = f"{row[low]:.4g} at all poses" if row[low] == row[high] and np.isfinite(row).all() else said
+                lines.append(f"  {name} [{unit}]: {said}")
         if unknown := int(np.isnan(rows).any(axis=0).sum()):
             lines.append(f"  not known at {unknown} of {len(self.motion)} poses")
         lines += [f"  {line}" for line in singular_report(self.motion, self.order)]

@@ -103,7 +103,7 @@ class SweptVolume(Result):
         return (
             f"Swept volume of {self.part} over {self.poses} poses{left}\n"
             f"  volume {self.volume:.6g}{f'{unit}^3' if unit else ''}, surface within {self.error:.3g}{unit}: at most "
-            f"{self.volume_error:.2g} off\n"
+            f"{self.volume_error:.2g}{f'{unit}^3' if unit else ''} off\n"
             f"  box ({low}) to ({high}){unit}\n"
             f"  {self.placements} placements on a grid of {self.field.size} points, {self.resolution:.3g}{unit} apart; "
             f"{len(self.mesh.faces)} triangles\n"

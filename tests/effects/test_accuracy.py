@@ -99,7 +99,7 @@ def test_the_table_and_the_advice(tmp_path):
     )
     assert str(work).splitlines()[-1] == work.advice and "rounding" in str(work)
     without = replace(work, points=work.points[-1:])
-    assert without.advice == "An error of 2e-14 costs no more than one of 2e-14 here."
+    assert without.advice == "The least error, 2e-14, costs no more than larger ones here."
     unknown = replace(work, points=(*work.points, point("bfgs", "float64", 1e-12, 0.1, np.nan)))
     assert unknown.advice == work.advice and "nan" in str(unknown)
     assert "no error to tell" in replace(work, points=unknown.points[-1:]).advice

@@ -58,6 +58,15 @@ def test_of_many_lines_the_largest_are_named_and_told_apart(drawn):
     assert len(grey) == 28 and all(line.get_zorder() < handles[0].get_zorder() for line in grey)
 
 
+def test_a_turn_is_divided_into_eighths_and_poses_are_whole(drawn):
+    rows = np.ones((1, 5))
+    for axis in (pose_plot.PoseAxis(np.linspace(0, 360, 5), "A (deg)"), None):
+        pose_plot.draw_lines(["a"], rows, "force (N)", "", Path("forces.png"), axis=axis)
+    turn, poses = (figure.axes[0].get_xticks() for figure in drawn)
+    assert {0, 45, 90, 360} <= {*turn.tolist()}
+    assert np.all(poses == np.round(poses))
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("letters", [4, 35, 90, 400])
 def test_legends_of_long_names_are_within_the_picture(letters, drawn):
