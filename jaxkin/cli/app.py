@@ -101,13 +101,8 @@ def inspect(
             contacts = study.contacts
         if study.assembly:
             report.print_assembly(study.assembly, None if study.by_export else contacts, verbose)
-        # only now: what stands above helps to see why the mechanism is refused
-        if png and study.assembly:
-            from jaxkin.view.inspection import draw_inspection
-
-            draw_inspection(study.assembly, png, contacts=contacts, mechanism=study.mechanism if study.held else None)
         tried: tuple[Proposal, ...] = ()
-        try:
+        try:  # only now: what stands above helps to see why the mechanism is refused
             if study.assembly and not study.held:
                 study, tried = run.proposed(study, study.assembly)
             report.print_mechanism(study.mechanism, contacts, verbose)
@@ -117,9 +112,13 @@ def inspect(
             report.print_gears(study.mechanism, verbose)
         except ValueError as refusal:
             report.print_near_misses(contacts, None, verbose)
+            if png and study.assembly:
+                written.draw(study.assembly, contacts, None, png)
             if page and study.assembly:
                 written.write_refusal(study.assembly, contacts, page, refusal)
             raise
+        if png and study.assembly:
+            written.draw(study.assembly, contacts, study.mechanism, png)
         if page:
             written.write_page(study, tried, page)
             report.say(f"\nWritten: {page}. Open it in a browser.")

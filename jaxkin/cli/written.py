@@ -16,6 +16,16 @@ if TYPE_CHECKING:
     from jaxkin.assembly.proposals import Proposal
     from jaxkin.contacts.contact import Contacts
     from jaxkin.io.study import Study
+    from jaxkin.mechanism.mechanism import Mechanism
+
+
+def draw(assembly: Assembly, contacts: Contacts, mechanism: Mechanism | None, png: Path) -> None:
+    """Draw an assembly with its contacts, and with the axes of its joints where it makes a mechanism."""
+    from jaxkin.view.inspection import draw_inspection
+
+    with progress(1) as step:
+        step(f"drawing {png.name}")
+        draw_inspection(assembly, png, contacts=contacts, mechanism=mechanism)
 
 
 def write_page(study: Study, tried: Sequence[Proposal], page: Path) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float, UInt8
 
 from jaxkin.geometry.part import Part
-from jaxkin.geometry.pose import frame
+from jaxkin.geometry.pose import Vector, frame
 from jaxkin.view.camera import View, choose_view, thumbnail
 from jaxkin.view.illustration import SUPERSAMPLING, Canvas, draw
 from jaxkin.view.sheet import Color
@@ -23,6 +23,14 @@ PALE = 0.62
 THROUGH = 12
 """Parts at most whose hidden edges are drawn too."""
 
+CORNER = np.array([0.62, 0.35, 0.7])
+"""Where an oblique view is from: above the plane of most flat faces, beside and before it."""
+PITCH = float(np.arcsin(CORNER[0] / np.linalg.norm(CORNER)))
+"""How far it looks down on that plane, radians."""
+ASIDE = 0.05
+"""Distance of the middles of moving and fixed parts, over the size of all, from which on they are on one side of them:
+parts within a frame are not."""
+
 
 def pale(color: Color) -> Color:
     """Find the colour that parts of a colour get."""
@@ -32,7 +40,7 @@ def pale(color: Color) -> Color:
 
 def canvas_of(parts: Sequence[Part], fixed: Sequence[str], longer: int = WIDTH) -> Canvas:
     """Find what the drawing shows of the parts, from where, and how large: the pixels of its longer side."""
-    view = _view(parts, fixed)
+    view = oblique_view(parts, fixed)
     points = view.project(np.concatenate([part.triangles.reshape(-1, 3) for part in parts]))
     low, high = points.min(axis=0), points.max(axis=0)
     margin = GLASS_MARGIN * (high - low)[:2].max()
@@ -74,17 +82,30 @@ def see_through(
     return np.asarray(Image.fromarray((255 * np.clip(image, 0, 1) + 0.5).astype(np.uint8)).reduce(SUPERSAMPLING))
 
 
-def _view(parts: Sequence[Part], fixed: Sequence[str]) -> View:
-    """Choose a view obliquely on the plane of most flat faces, from the corner that hides least of any part."""
+def oblique_view(parts: Sequence[Part], fixed: Sequence[str]) -> View:
+    """Choose a view obliquely on the plane of most flat faces, from the corner that hides least of any part: from the
+    side of the plane on which the moving parts are, where they are on one side of the fixed ones."""
     still = {part.name: np.eye(4)[None] for part in parts}
     right, up, out = choose_view(parts, fixed, still).axes
+    side = _side_of_moving(parts, fixed, out)
     views = []
-    for above, beside, before in product((1, -1), (1, -1), (-1, 1)):
-        towards = 0.62 * above * out + 0.35 * beside * right + 0.7 * before * up
+    for above, beside, before in product((side,) if side else (1, -1), (1, -1), (-1, 1)):
+        towards = CORNER @ np.stack([above * out, beside * right, before * up])
         views.append(View(frame(np.zeros(3), towards, np.cross(above * out, towards))[:3, :3].T, False))
     merits = [_seen(parts, view) for view in views]
     best = int(np.argmax(merits))
     return views[best] if merits[best] > merits[0] + 0.1 * len(parts) else views[0]
+
+
+def _side_of_moving(parts: Sequence[Part], fixed: Sequence[str], out: Vector) -> int:
+    """Tell on which side of the fixed parts the others are, 1 along `out` or -1; 0 where they are beside each other."""
+    middles = np.array([part.box.mean(axis=0) @ out for part in parts])
+    held = np.array([part.name in fixed for part in parts])
+    if held.all() or not held.any():
+        return 0
+    size = np.linalg.norm(np.ptp(np.concatenate([part.box for part in parts]), axis=0))
+    rise = middles[~held].mean() - middles[held].mean()
+    return int(np.sign(rise)) if abs(rise) > ASIDE * size else 0
 
 
 def _seen(parts: Sequence[Part], view: View) -> float:

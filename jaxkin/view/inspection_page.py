@@ -21,11 +21,11 @@ from jaxkin.geometry.units import unit_name
 from jaxkin.joints.evidence import EvidenceKind
 from jaxkin.joints.joint import Joint
 from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.view.camera import View
 from jaxkin.view.drawing import body_colors, body_label, drawn_solids
+from jaxkin.view.glass import PITCH, oblique_view
 from jaxkin.view.viewer import encoded, part_entries, rounded, write_page
 
-YAW, PITCH = -0.6, 0.5
-"""Where the assembly is first seen from, in radians: obliquely, so that three sides of it show."""
 BEYOND = (0.01, 0.1)
 """How far the axis of a joint stands out at either end: as far as both of its parts reach along it, but no less and no
 more than this, over half the size of the assembly."""
@@ -86,9 +86,9 @@ def _scene(found: Mechanism | Assembly, source: str) -> dict:
         "lost": [""],
         "centre": centre.tolist(),
         "scale": scale,
-        "axes": [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]],  # z is up
+        "axes": _turntable(oblique_view(solids, fixed)).tolist(),
         "corners": box_corners((np.stack([low, high]) - centre) / scale).tolist(),
-        "yaw": YAW,
+        "yaw": 0.0,
         "pitch": PITCH,
         "bodies": [
             {
@@ -107,6 +107,14 @@ def _scene(found: Mechanism | Assembly, source: str) -> dict:
         "marks": [],
         "joints": [_joint(joint, mechanism, index) for joint in joints if mechanism],
     }
+
+
+def _turntable(oblique: View) -> Float[np.ndarray, "3 3"]:
+    """Find the turntable that an oblique view looks down on, as it does on most flat faces; its rows are right, up, and
+    level towards the viewer."""
+    right, up, out = oblique.axes
+    cos, sin = np.cos(PITCH), np.sin(PITCH)
+    return np.stack([right, cos * up + sin * out, cos * out - sin * up])
 
 
 def _axis(

@@ -14,6 +14,7 @@ from jaxkin.assembly.assembly import Assembly
 from jaxkin.contacts.contact import Contacts
 from jaxkin.geometry.part import Part
 from jaxkin.view.drawing import body_colors
+from jaxkin.view.glass import oblique_view
 from jaxkin.view.inspection_page import inspection_page
 
 SIDE = 20.0
@@ -133,3 +134,19 @@ def test_mechanisms_by_hand_are_shown_as_sticks(tmp_path):
     assert text.count("</script>") == 3
     assert [part["name"] for part in data["parts"]] == ["ground", "</script>", "tip"]
     assert np.ptp(points(data, data["paths"][1]), axis=0) == pytest.approx(0, abs=1e-6)  # a ball has no axis
+
+
+@pytest.mark.parametrize("up", [*np.eye(3), *-np.eye(3)], ids=str)
+def test_the_page_opens_as_the_picture_does_with_the_moving_parts_on_their_base(up, tmp_path):
+    """However the file is turned: seen with z up, the base plate hid what is on its other side."""
+    flat = 100.0 - 90.0 * np.abs(up)
+    plate = Part("plate", (), trimesh.creation.box(flat).triangles)
+    arm = Part("arm", (), trimesh.creation.box(0.4 * flat).triangles + 20.0 * up)
+    hinge = jk.revolute("hinge", "plate", "arm", point=(0, 0, 0), axis=tuple(up))
+    mechanism = Assembly((plate, arm), "mm", "plate.step").mechanism(fixed=["plate"], joints=[hinge], contacts=[])
+    _, data = written(mechanism, tmp_path)
+    np.testing.assert_allclose(data["axes"][1], up, atol=1e-12)
+    cos, sin = np.cos(data["pitch"]), np.sin(data["pitch"])
+    assert data["yaw"] == 0 and sin > 0, "the plate is looked down on"
+    looked = np.array([[1, 0, 0], [0, cos, -sin], [0, sin, cos]]) @ data["axes"]
+    np.testing.assert_allclose(looked, oblique_view(mechanism.solids, ["plate"]).axes, atol=1e-12)
