@@ -57,7 +57,7 @@ def describe_mechanism(mechanism: Mechanism, verbose: bool = False) -> str:
     lines += ["", f"Motors: {(listed if brief else ', '.join)(mechanism.motors)}"] if mechanism.motors else []
     loops = [_loop(loop, mechanism, named, verbose) for loop in mechanism.structure.loops]
     lines += ["", f"Loops: {len(loops)}", *(f"  {loop}" for loop in (shortened(loops) if brief else loops))]
-    lines += ["", *describe_mobility(mechanism), *(_idle(mechanism) if verbose else [])]
+    lines += ["", *describe_mobility(mechanism, verbose)]
     if doubtful := doubts(mechanism.linkage):
         rows = [f"  {each.name} is taken as {each.kind}, and {_doubt(each, doubt)}" for each, doubt in doubtful]
         head = f"Doubtful: {len(rows)} of {len(joints)} joints, the least certain first"
@@ -92,13 +92,6 @@ def _loop(loop: Loop, mechanism: Mechanism, body: Mapping[str, str], verbose: bo
     rows = [body[mechanism.fixed[0]] if row not in body else body[row] for row in loop.path[::2]]
     told = [row for row, after in pairwise([*rows, rows[0]]) if row != after]
     return f"over the bodies {' - '.join([*told, told[0]])}" if told else str(loop)
-
-
-def _idle(mechanism: Mechanism) -> list[str]:
-    """List idle motions, of which the mobility names the first ones only."""
-    if opening(mechanism.linkage, mechanism.unit) is not None:
-        return []
-    return [f"  idle: {each}" for each in mechanism.mobility().idle_motions]
 
 
 def _bodies(mechanism: Mechanism, named: Mapping[str, str]) -> list[str]:
@@ -136,12 +129,15 @@ def _limits(joint: Joint) -> str:
     )
 
 
-def describe_mobility(mechanism: Mechanism) -> list[str]:
-    """Tell the freedoms of a mechanism in lines; where nothing can move, why not, and where it is open, by how much."""
+def describe_mobility(mechanism: Mechanism, verbose: bool = False) -> list[str]:
+    """Tell the freedoms of a mechanism in lines, of many idle ones the first unless `verbose`; where nothing can move,
+    why not, and where it is open, by how much."""
     if (gap := opening(mechanism.linkage, mechanism.unit)) is not None:
         return [f"Not closed in this pose: {gap}; mechanism.close() closes it"]
     mobility = mechanism.mobility()
-    lines = [f"Mobility: {mobility}", *([f"  {mobility.counting}"] if mobility.counting else [])]
+    head, *idle = str(mobility).splitlines()
+    idle = [f"  idle: {each}" for each in mobility.idle_motions] if verbose else idle
+    lines = [f"Mobility: {head}", *([f"  {mobility.counting}"] if mobility.counting else []), *idle]
     if len(mechanism.bodies) == 1 < len(mechanism.parts):
         return [*lines, f"It cannot move: all its parts are one body.{_what_makes_it_one(mechanism)}"]
     moving = len(mechanism.parts) > len(mechanism.fixed)

@@ -45,13 +45,15 @@ class IdleMotion:
 
     def __str__(self) -> str:
         verb = self.kind if len(self.parts) == 1 else self.kind.removesuffix("s") + " together"
-        return f"{_told(self.parts, ' + ')} {verb} between {_told(self.between, ' and ')}"
+        *first, last = _told(self.between)
+        between = f"{', '.join(first)} and {last}" if first else last
+        return f"{' + '.join(_told(self.parts))} {verb} between {between}"
 
 
-def _told(parts: Sequence[str], comma: str) -> str:
-    """Write the names of parts, of many the first ones: a body of a machine has dozens."""
+def _told(parts: Sequence[str]) -> Sequence[str]:
+    """List the names of parts, of many the first ones: a body of a machine has dozens."""
     more = len(parts) - _TOLD
-    return comma.join(parts if more <= 0 else (*parts[:_TOLD], f"{more} more"))
+    return parts if more <= 0 else (*parts[:_TOLD], f"{more} more")
 
 
 @dataclass(frozen=True, eq=False)

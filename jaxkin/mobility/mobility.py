@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
-from itertools import accumulate
 
 import numpy as np
 from jaxtyping import Float
@@ -24,16 +23,15 @@ from jaxkin.mobility.idle import IdleMotion, IdleMotions
 from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
 from jaxkin.mobility.open_loops import check_closed
 
-_LETTERS = 400
-"""Letters of the idle motions that a line on mobility names: those of machines have long names, and one line of them
-may not be longer than the rest of a report."""
+_LETTERS = 80
+"""Letters of idle motions that stand in the line on mobility: of more, each has a line of its own below."""
 SHARE = 0.3
 """Rate that a coordinate proposed as a drive adds to those before it, over the largest that any adds, at least. Of 60
 random loops of one to four freedoms, 26 had sets of drives in which some motion of unit norm has rates below 0.1; with
 this share 1 has. A larger share gives up joints at the fixed parts for little: half of the sets change with this one,
 three quarters with 0.5."""
 _MOST_IDLE = 8
-"""Idle motions that it names at most."""
+"""Idle motions that are named at most."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -89,12 +87,15 @@ class Mobility(Result):
 
     def __str__(self) -> str:
         told = list(map(str, self.idle_motions))
-        fitting = max(1, sum(length <= _LETTERS for length in accumulate(map(len, told))))
-        idle = f", {self.idle_freedoms} of them idle: {listed(told, min(_MOST_IDLE, fitting))}" if told else ""
+        inline = len(told) == 1 or len(", ".join(told)) <= _LETTERS
+        idle = f", {self.idle_freedoms} of them idle{f': {listed(told)}' if inline else ''}" if told else ""
+        below = [] if inline else [f"  idle: {each}" for each in told[:_MOST_IDLE]]
         freedoms = counted(self.freedoms, "freedom")
         if self.spinning:
             freedoms += f" ({self.spins} of them of parts that only spin: {listed(self.spinning)})"
-        return f"{freedoms}{idle}, {counted(self.redundant, 'redundant equation')}"
+        if not inline and len(told) > _MOST_IDLE:
+            below.append(f"  and {len(told) - _MOST_IDLE} more: see .idle_motions")
+        return "\n".join([f"{freedoms}{idle}, {counted(self.redundant, 'redundant equation')}", *below])
 
 
 def mobility(linkage: Linkage, unit: str = "") -> Mobility:
