@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -106,15 +107,16 @@ class Clashes(Result):
             )
         return "\n".join(lines)
 
-    def plot(self, path: str | Path) -> Path:
-        """Draw the clearances of the pairs that clash, or else the nearest ones, over the drive; returns the path."""
+    def plot(self, path: str | Path, times: Any = None) -> Path:
+        """Draw the clearances of the pairs that clash, or else of the nearest ones, over the drive or `times` into a
+        picture file; returns its path."""
         lowest = np.where(np.isfinite(self.clearances), self.clearances, np.inf).min(axis=1, initial=np.inf)
         order = [int(pair) for pair in np.argsort(lowest) if lowest[pair] < 0 or not self.joined[pair]][:NAMED]
         label = f"clearance ({self.unit})" if self.unit else "clearance"
         title = "below 0: depth of a clash" if self.clashing.any() else "no clash" if self.closed.any() else "not known"
         if not self.closed.all():
             title += f"; {np.sum(~self.closed)} of {len(self.closed)} poses are not closed"
-        names, axis = [self._named(pair) for pair in order], drive_axis(self.motion)
+        names, axis = [self._named(pair) for pair in order], drive_axis(self.motion, times)
         return draw_lines(names, self.clearances[order], label, title, Path(path), axis=axis)
 
     def save(self, path: str | Path) -> Path:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -90,15 +91,16 @@ class ContactValidity(Result):
             lines.append(f"  without contacts to check: {', '.join(self.unchecked)}")
         return "\n".join(lines)
 
-    def plot(self, path: str | Path) -> Path:
-        """Draw the gaps of the contacts that are lost over the drive into a picture file; returns its path."""
+    def plot(self, path: str | Path, times: Any = None) -> Path:
+        """Draw the gaps of the contacts that are lost, over the drive or `times`, into a picture file; returns its
+        path."""
         lost = np.flatnonzero(self.lost.any(axis=1)).tolist()
         title = "contacts that are lost" if lost else "no contact is lost"
         label = f"gap between the faces ({self.unit})" if self.unit else "gap between the faces"
         names, rows = [self._named(number) for number in lost], self.gaps[lost]
         if not lost and len(self.gaps):
             names, rows = ["all contacts"], self.gaps.max(axis=0, keepdims=True)
-        return draw_lines(names, rows, label, title, Path(path), axis=drive_axis(self.motion))
+        return draw_lines(names, rows, label, title, Path(path), axis=drive_axis(self.motion, times))
 
     def save(self, path: str | Path) -> Path:
         """Write the gaps as comma-separated values, a row a pose and a column a contact; returns the path."""

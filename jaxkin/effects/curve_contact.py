@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -123,12 +123,13 @@ class CurveContacts(Result):
     def _length(self, value: float) -> str:
         return f"{value:.4g} {self.unit}".rstrip()
 
-    def plot(self, path: str | Path) -> Path:
-        """Draw how deep followers pass through profiles, and beyond ends, over the drive; returns the path."""
+    def plot(self, path: str | Path, times: Any = None) -> Path:
+        """Draw how deep followers pass through profiles, and beyond ends, over the drive or `times`; returns the
+        path."""
         names, rows = self._rows(("depth", "beyond"))
         title = "contacts on curves" if self.holds else "contacts on curves that are not possible"
         label = f"depth, distance beyond ends ({self.unit})" if self.unit else "depth, distance beyond ends"
-        return draw_lines(names, rows, label, title, Path(path), axis=drive_axis(self.motion))
+        return draw_lines(names, rows, label, title, Path(path), axis=drive_axis(self.motion, times))
 
     def save(self, path: str | Path) -> Path:
         """Write all numbers as comma-separated values, a row a pose; returns the path."""

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin._arguments import numbers
 from jaxkin.geometry.movements import is_length
 
 if TYPE_CHECKING:
@@ -44,11 +45,18 @@ def shown_input(motion: Motion, full_name: str, values: Float[np.ndarray, " pose
     return ShownInput(name, np.rad2deg(values), "deg")
 
 
-def drive_axis(motion: Motion) -> PoseAxis | None:
-    """Find the axis of a chart over the poses of a motion: that of the one displacement which its drive changes.
+def drive_axis(motion: Motion, times: Any = None) -> PoseAxis | None:
+    """Find the axis of a chart over the poses of a motion: `times`, one a pose, or the one displacement that its drive
+    changes.
 
     None where several change, or where the one turns back or rests: then only the numbers of the poses tell them apart.
+    Raises ValueError for times of another number than that of the poses.
     """
+    if times is not None:
+        values = np.asarray(numbers(times, "the times of a chart"))
+        if values.shape != (len(motion),):
+            raise ValueError(f"a chart needs one time for each of the {len(motion)} poses, got shape {values.shape}")
+        return PoseAxis(values, "time")
     steps = {key: np.diff(np.asarray(values, float)) for key, values in motion.inputs.items()}
     changed = [key for key, each in steps.items() if np.any(each != 0)]
     if len(changed) != 1:

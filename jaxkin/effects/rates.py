@@ -114,11 +114,11 @@ class Rates(Result):
         lines += [f"  {line}" for line in singular_report(self.motion, self.order)]
         return "\n".join(lines)
 
-    def plot(self, path: str | Path) -> Path:
-        """Draw the rates of all joint coordinates over the drive into a picture file; returns its path."""
+    def plot(self, path: str | Path, times: Any = None) -> Path:
+        """Draw the rates of all joint coordinates over the drive or `times` into a picture file; returns its path."""
         names, units, rows = self._rows()
         labels = [f"{NAMES[self.order].lower()} of joints ({unit})" for unit in units]
-        return draw_lines(names, rows, labels, "", Path(path), axis=drive_axis(self.motion))
+        return draw_lines(names, rows, labels, "", Path(path), axis=drive_axis(self.motion, times))
 
     def save(self, path: str | Path) -> Path:
         """Write them as comma-separated values, a row a pose and a column a joint coordinate; returns the path."""

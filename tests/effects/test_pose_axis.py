@@ -91,6 +91,24 @@ def test_lengths_have_the_unit_of_the_mechanism():
     np.testing.assert_allclose(axis.values, [0.0, -0.05, -0.1])
 
 
+@pytest.mark.parametrize("name", [name for name in EFFECTS if name != "equilibrium"])
+def test_effects_are_drawn_over_times_that_are_given(name, motion, drawn, tmp_path):
+    """A drive that rests or comes back does not tell its poses apart, and time does."""
+    times = 0.25 * ANGLES
+    EFFECTS[name](motion).plot(tmp_path / "effect.png", times=times)
+    for axes in drawn[0].axes:
+        assert axes.get_xlabel() == "time"
+        for line in axes.lines[:-1]:
+            np.testing.assert_allclose(line.get_xdata(), times)
+
+
+@pytest.mark.parametrize("times", [np.zeros(4), np.zeros((5, 1)), 0.1, "now"])
+def test_times_of_another_number_are_refused(times, motion, tmp_path):
+    with pytest.raises(ValueError, match=r"times|one time for each of the 5 poses"):
+        jk.velocities(motion, {"ground-crank": 1.0}).plot(tmp_path / "rates.png", times)
+    assert not (tmp_path / "rates.png").exists()
+
+
 @pytest.mark.parametrize("values", [[0.0, 0.1, 0.1], [0.0, 0.1, 0.05], [0.0, np.nan, 0.1], [0.1], []])
 def test_a_drive_that_rests_or_turns_back_tells_no_poses_apart(values):
     assert drive_axis(planar_fourbar().sweep({"A": np.array(values, float)})) is None

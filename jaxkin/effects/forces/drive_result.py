@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import jax
 import jax.numpy as jnp
@@ -63,10 +64,10 @@ class DriveForces(Result):
         lines += [f"  {line}" for line in (self.friction.lines() if self.friction else ())]
         return "\n".join(lines)
 
-    def plot(self, path: str | Path) -> Path:
-        """Draw the forces over the drive into a picture file; returns its path."""
+    def plot(self, path: str | Path, times: Any = None) -> Path:
+        """Draw the forces over the drive or `times` into a picture file; returns its path."""
         labels = [{"N m": "torque (N m)", "N": "force (N)"}[self.units[name]] for name in self.forces]
-        axis = drive_axis(self.motion)
+        axis = drive_axis(self.motion, times)
         return draw_lines([*self.forces], self._rows(), labels, "drive forces", Path(path), axis=axis)
 
     def save(self, path: str | Path) -> Path:

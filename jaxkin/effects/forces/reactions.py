@@ -129,14 +129,14 @@ class Reactions(Result):
         more = [f"  and {len(found) - MAX_HELD} more without a drive: see .held"] if len(found) > MAX_HELD else []
         return [*found[:MAX_HELD], *more]
 
-    def plot(self, path: str | Path, joints: Sequence[str] | None = None) -> Path:
-        """Draw the size of the forces of some joints over the drive, by default of all; returns the path."""
+    def plot(self, path: str | Path, joints: Sequence[str] | None = None, times: Any = None) -> Path:
+        """Draw the size of the forces of some joints over the drive or `times`, by default of all; returns the path."""
         forces = {name: np.linalg.norm(np.asarray(rows), axis=1) for name, rows in self.forces.items()}
         for name in joints or ():
             if name not in forces:
                 raise ValueError(f"there is no joint {name!r}{nearest(str(name), forces)}")
         order = list(joints or forces)
-        rows, axis = np.stack([forces[name] for name in order]), drive_axis(self.motion)
+        rows, axis = np.stack([forces[name] for name in order]), drive_axis(self.motion, times)
         return draw_lines(order, rows, "force (N)", "joint reactions", Path(path), axis=axis)
 
     def save(self, path: str | Path) -> Path:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import jax
 import jax.numpy as jnp
@@ -70,12 +71,12 @@ class Transmission(Result):
             lines.append(f"  no force goes through {self.joint} in {without} poses: no transmission angle there")
         return "\n".join(lines)
 
-    def plot(self, path: str | Path) -> Path:
-        """Draw the transmission angle over the drive into a picture file; returns its path."""
+    def plot(self, path: str | Path, times: Any = None) -> Path:
+        """Draw the transmission angle over the drive or `times` into a picture file; returns its path."""
         degrees = np.degrees(np.asarray(self.angle, float))
         title = f"{self.input} to {self.output}"
         names, label = [f"through {self.joint}"], "transmission angle (deg)"
-        return draw_lines(names, degrees[None], label, title, Path(path), axis=drive_axis(self.motion))
+        return draw_lines(names, degrees[None], label, title, Path(path), axis=drive_axis(self.motion, times))
 
     def save(self, path: str | Path) -> Path:
         """Write ratio, advantage and angle as comma-separated values, one row a pose; returns the path."""
