@@ -149,7 +149,7 @@ def print_motion(motion: Motion) -> None:
         for column, coordinate in enumerate(joint.coordinates):
             values = np.asarray(motion.coordinates[name])[closed, column]
             scale, unit = (1.0, motion.mechanism.unit) if is_length(coordinate) else (180 / np.pi, "deg")
-            ends = (f"{scale * end:.3f}" for end in (values.min(), values.max()))
+            ends = (f"{scale * end:z.3f}" for end in (values.min(), values.max()))
             rows.append((joint.full_names[column], *ends, unit))
     print_table(("coordinate", "least", "greatest", "unit"), rows, numbers=(1, 2))
 
