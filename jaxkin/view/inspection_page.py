@@ -78,6 +78,7 @@ def _scene(found: Mechanism | Assembly, source: str) -> dict:
     axes = [(joint, _axis(joint, boxes, centre, scale)) for joint in joints if joint.freedoms]
     facts = [counted(len(solids), "part")]
     facts += [counted(len(bodies), "body"), f"joints that move: {len(axes)}"] if mechanism else []
+    upright = _turntable(oblique_view(solids, fixed))
     return {
         "title": source,
         "subtitle": "  ·  ".join([*facts, f"lengths in {unit_name(found.unit) or 'no known unit'}"]),
@@ -86,8 +87,8 @@ def _scene(found: Mechanism | Assembly, source: str) -> dict:
         "lost": [""],
         "centre": centre.tolist(),
         "scale": scale,
-        "axes": _turntable(oblique_view(solids, fixed)).tolist(),
-        "corners": box_corners((np.stack([low, high]) - centre) / scale).tolist(),
+        "axes": upright.tolist(),
+        "corners": (box_corners(_bounds(solids, upright, centre) / scale) @ upright).tolist(),
         "yaw": 0.0,
         "pitch": PITCH,
         "bodies": [
@@ -107,6 +108,16 @@ def _scene(found: Mechanism | Assembly, source: str) -> dict:
         "marks": [],
         "joints": [_joint(joint, mechanism, index) for joint in joints if mechanism],
     }
+
+
+def _bounds(
+    solids: Sequence[Part], upright: Float[np.ndarray, "3 3"], centre: Float[np.ndarray, "3"]
+) -> Float[np.ndarray, "2 3"]:
+    """Find the box about a centre, along the rows of `upright`, that the parts fill: a box along the axes of the world
+    is much larger where nothing in it lies along these."""
+    places = np.concatenate([part.triangles.reshape(-1, 3) for part in solids]) - centre
+    along = places @ upright.T
+    return np.stack([along.min(axis=0), along.max(axis=0)])
 
 
 def _turntable(oblique: View) -> Float[np.ndarray, "3 3"]:

@@ -150,3 +150,6 @@ def test_the_page_opens_as_the_picture_does_with_the_moving_parts_on_their_base(
     assert data["yaw"] == 0 and sin > 0, "the plate is looked down on"
     looked = np.array([[1, 0, 0], [0, cos, -sin], [0, sin, cos]]) @ data["axes"]
     np.testing.assert_allclose(looked, oblique_view(mechanism.solids, ["plate"]).axes, atol=1e-12)
+    corners = np.concatenate([part.triangles.reshape(-1, 3) for part in mechanism.solids]) - data["centre"]
+    seen, filled = (np.ptp(each @ np.transpose(data["axes"]), axis=0) for each in (corners, np.array(data["corners"])))
+    np.testing.assert_allclose(filled * data["scale"], seen, atol=1e-9)
