@@ -16,6 +16,9 @@ from jaxkin.geometry.movements import is_length
 ROUNDING = 100.0
 """Angular speed of a part, over the largest one of a joint and the precision of numbers, up to which the part does not
 turn: a few joints' rates that cancel leave some units of rounding, and axes from these are anywhere."""
+NO_PITCH = 1e-9
+"""Pitch, over the distance of axes from the origin, up to which it is told as none: that of planar motion is rounding
+of 1e-12 where the part hardly turns."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -47,11 +50,18 @@ class ScrewAxes(Result):
                 low, high = turning[row[turning].argmin()], turning[row[turning].argmax()]
                 least, most = f"{row[low]:.4g}", f"{row[high]:.4g}"
                 said = least if least == most else f"from {least} at pose {low} to {most} at pose {high}"
+                if name == "pitch" and np.abs(row[turning]).max() <= NO_PITCH * self._reach(turning):
+                    said = "0 but for rounding"
                 lines.append(f"  {name} [{of}]: {said}")
         if len(still := np.flatnonzero(speed == 0)):
             count = f"{len(still)} of {len(speed)} poses"
             lines.append(f"  only slides or rests in {count}, first at pose {still[0]}: no axis there")
         return "\n".join(lines)
+
+    def _reach(self, turning: np.ndarray) -> float:
+        """Measure the largest distance of an axis from the origin, on either side: what roundings of lengths are of."""
+        points = np.concatenate([np.asarray(self.point)[turning], np.asarray(self.moving)[turning]])
+        return float(np.linalg.norm(points, axis=1).max())
 
 
 jax.tree_util.register_dataclass(

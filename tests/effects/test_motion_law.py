@@ -9,6 +9,7 @@ import pytest
 
 import jaxkin as jk
 from jaxkin.effects.motion_law import LAWS
+from jaxkin.examples import path
 
 Z = (0.0, 0.0, 1.0)
 PEAKS = {
@@ -241,6 +242,14 @@ def test_screw_axes_print_their_ranges_and_where_there_are_none():
         "  pitch [mm/rad]: 0.07958",  # 0.5 mm a turn
         "  only slides or rests in 1 of 5 poses, first at pose 1: no axis there",
     ]
+
+
+def test_a_part_that_turns_in_a_tilted_plane_has_no_pitch():
+    """Rounding made it 1e-11 mm a radian, from one pose to another."""
+    motion = jk.load(path("fourbar")).mechanism(fixed=["ground"]).sweep({"ground-crank": np.linspace(0, 6, 31)})
+    axes = jk.screw_axes(jk.velocities(motion, {"ground-crank": 20.0}), "coupler")
+    assert 0 < np.abs(axes.pitch).max() < 1e-8
+    assert "  pitch [mm/rad]: 0 but for rounding" in str(axes).splitlines()
 
 
 @pytest.mark.long
