@@ -11,7 +11,7 @@ from jaxtyping import Bool, Float
 
 from jaxkin._grouped import MAX_LINES
 from jaxkin._guesses import Result
-from jaxkin.effects.pose_axis import drive_axis
+from jaxkin.effects.pose_axis import drive_axis, pose_names
 from jaxkin.effects.pose_plot import NAMED, draw_lines, save_rows
 from jaxkin.mechanism.motion import Motion
 
@@ -74,6 +74,7 @@ class Clashes(Result):
         poses, known = len(self.closed), int(self.closed.sum())
         if not known:
             return f"none of {poses} poses is closed: whether parts clash is not known"
+        named = pose_names(self.motion)
         clash = np.flatnonzero(self.clashing.any(axis=1)).tolist()
         told = f"{known} closed poses of {poses}" if known < poses else f"{poses} poses"
         lines = [f"{len(self.pairs)} pairs of parts come near each other in {told}: {len(clash)} clash"]
@@ -81,12 +82,12 @@ class Clashes(Result):
             lines.append(f"  whether parts clash at the {poses - known} other poses is not known")
         if self.first is not None:
             pose, pair = self.first
-            lines.append(f"  first at pose {pose}: {self._named(pair)}, {self._length(self.depths[pair, pose])} deep")
+            lines.append(f"  first at {named(pose)}: {self._named(pair)}, {self._length(self.depths[pair, pose])} deep")
         for pair in clash[:MAX_LINES]:
             row = np.nan_to_num(self.depths[pair])
             lines.append(
-                f"  {self._named(pair)}: clash at {np.sum(row > 0)} poses from pose {np.argmax(row > 0)} on, deepest "
-                f"{self._length(row.max())} at pose {self._first_at(row, row.max())}"
+                f"  {self._named(pair)}: clash at {np.sum(row > 0)} poses from {named(np.argmax(row > 0))} on, deepest "
+                f"{self._length(row.max())} at {named(self._first_at(row, row.max()))}"
             )
         free = [pair for pair in range(len(self.pairs)) if pair not in clash and not self.joined[pair]]
         least = {pair: np.where(np.isnan(self.clearances[pair]), np.inf, self.clearances[pair]) for pair in free}
@@ -94,7 +95,7 @@ class Clashes(Result):
         for pair in near[:MAX_LINES]:
             row = least[pair]
             lines.append(
-                f"  {self._named(pair)}: nearest {self._length(row.min())} at pose {self._first_at(row, row.min())}"
+                f"  {self._named(pair)}: nearest {self._length(row.min())} at {named(self._first_at(row, row.min()))}"
             )
         left = max(0, len(clash) - MAX_LINES) + max(0, len(near) - MAX_LINES)
         if left:

@@ -22,7 +22,7 @@ from jaxkin.assembly.kept_contacts import kept_contacts
 from jaxkin.contacts.contact import Contact
 from jaxkin.contacts.separation import FaceDisplacements, Gaps
 from jaxkin.contacts.whole_face import is_whole, share_region
-from jaxkin.effects.pose_axis import drive_axis
+from jaxkin.effects.pose_axis import drive_axis, pose_names
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.part import Face
 from jaxkin.geometry.pose import Transform, apply
@@ -72,18 +72,16 @@ class ContactValidity(Result):
 
     def __str__(self) -> str:
         closed = int(np.sum(~np.isnan(self.gaps).any(axis=0))) if len(self.gaps) else 0
-        lost = np.flatnonzero(self.lost.any(axis=1)).tolist()
+        lost, at = np.flatnonzero(self.lost.any(axis=1)).tolist(), pose_names(self.motion)
         lines = [f"{len(self.contacts)} contacts at {closed} closed poses of {self.gaps.shape[1]}: {len(lost)} lost"]
         if self.first is not None:
             pose, number = self.first
-            lines.append(
-                f"  first at pose {pose}: {self._named(number)}, {self._length(self.gaps[number, pose])} apart"
-            )
+            lines.append(f"  first at {at(pose)}: {self._named(number)}, {self._length(self.gaps[number, pose])} apart")
         for number in lost[:MAX_LINES]:
             gaps = np.nan_to_num(self.gaps[number])
             lines.append(
-                f"  {self._named(number)}: lost at {np.sum(gaps > 0)} poses from pose {np.argmax(gaps > 0)} on, widest "
-                f"{self._length(gaps.max())} at pose {np.argmax(gaps)}"
+                f"  {self._named(number)}: lost at {np.sum(gaps > 0)} poses from {at(np.argmax(gaps > 0))} on, widest "
+                f"{self._length(gaps.max())} at {at(np.argmax(gaps))}"
             )
         if len(lost) > MAX_LINES:
             lines.append(f"  and {len(lost) - MAX_LINES} more: see .gaps")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -57,6 +58,21 @@ def drive_axis(motion: Motion, times: Any = None) -> PoseAxis | None:
         if values.shape != (len(motion),):
             raise ValueError(f"a chart needs one time for each of the {len(motion)} poses, got shape {values.shape}")
         return PoseAxis(values, "time")
+    shown = _telling_input(motion)
+    return None if shown is None else shown.axis()
+
+
+def pose_names(motion: Motion) -> Callable[[int | np.integer[Any]], str]:
+    """Make the function that names a pose, by its number and by what its drive is there: "pose 30 (90 deg)"."""
+    shown = _telling_input(motion)
+    if shown is None:
+        return lambda pose: f"pose {pose}"
+    return lambda pose: f"pose {pose} ({f'{shown.values[pose]:.4g} {shown.unit}'.rstrip()})"
+
+
+def _telling_input(motion: Motion) -> ShownInput | None:
+    """Find the one displacement that tells all poses of a motion apart, since it alone changes, and only rises or only
+    falls; None without such."""
     steps = {key: np.diff(np.asarray(values, float)) for key, values in motion.inputs.items()}
     changed = [key for key, each in steps.items() if np.any(each != 0)]
     if len(changed) != 1:
@@ -64,4 +80,4 @@ def drive_axis(motion: Motion, times: Any = None) -> PoseAxis | None:
     (key,) = changed
     if not (np.all(steps[key] > 0) or np.all(steps[key] < 0)):
         return None
-    return shown_input(motion, key, np.asarray(motion.inputs[key], float)).axis()
+    return shown_input(motion, key, np.asarray(motion.inputs[key], float))

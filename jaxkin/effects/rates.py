@@ -22,7 +22,7 @@ from jaxtyping import Array, Bool, Float
 from jaxkin._arguments import by_name, check_motion, numbers
 from jaxkin._guesses import Result
 from jaxkin._names import nearest
-from jaxkin.effects.pose_axis import drive_axis
+from jaxkin.effects.pose_axis import drive_axis, pose_names
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.effects.pose_shards import in_shards
 from jaxkin.geometry.movements import is_length
@@ -102,11 +102,12 @@ class Rates(Result):
     def __str__(self) -> str:
         """Say the least and the greatest rate of each coordinate, and at which poses rates are not known."""
         lines = [f"{NAMES[self.order]} over {len(self.motion)} poses, for the given ones of {', '.join(self.inputs)}"]
+        named = pose_names(self.motion)
         names, units, rows = self._rows()
         for name, unit, row in zip(names, units, rows, strict=True):
             if np.isfinite(row).any():
                 low, high = int(np.nanargmin(row)), int(np.nanargmax(row))
-                said = f"from {row[low]:.4g} at pose {low} to {row[high]:.4g} at pose {high}"
+                said = f"from {row[low]:.4g} at {named(low)} to {row[high]:.4g} at {named(high)}"
                 said = f"{row[low]:.4g} at all poses" if row[low] == row[high] and np.isfinite(row).all() else said
                 lines.append(f"  {name} [{unit}]: {said}")
         if unknown := int(np.isnan(rows).any(axis=0).sum()):

@@ -160,5 +160,7 @@ def test_equal_lengths_are_told_at_their_first_pose():
     found = jk.Clashes(
         motion, (("base", "box"), ("base", "arm")), np.zeros(2, bool), rows, np.ones(50, bool), within=10.0, unit="mm"
     )
-    assert "base - box: nearest 7.5 mm at pose 0" in str(found)
-    assert "base - arm: clash at 30 poses from pose 20 on, deepest 2 mm at pose 20" in str(found)
+    assert "base - box: nearest 7.5 mm at pose 0 (0 deg)" in str(found)
+    assert "base - arm: clash at 30 poses from pose 20 (23.39 deg) on, deepest 2 mm at pose 20 (23.39 deg)" in str(
+        found
+    )

@@ -40,7 +40,7 @@ def test_a_slider_runs_into_a_wall(tmp_path):
     # deeper than half its height the slider is nearest to the wall's front all the same: 30 deep, 20 wide
     np.testing.assert_allclose(found.clearances[0], np.where(clear > 5, np.inf, clear), atol=ROUNDING)
     assert found.first == (10, 0) and found.pairs == (("wall", "slider"),)
-    assert "first at pose 10: wall - slider, 0.5 mm deep" in str(found)
+    assert "first at pose 10 (10.5 mm): wall - slider, 0.5 mm deep" in str(found)
     np.testing.assert_allclose(found.depths[0], np.maximum(-clear, 0), atol=ROUNDING)
 
 

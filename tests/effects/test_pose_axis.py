@@ -1,5 +1,7 @@
 """What charts of effects are drawn over: the input that moves the mechanism, in the unit that people read."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -89,6 +91,15 @@ def test_lengths_have_the_unit_of_the_mechanism():
     axis = drive_axis(mechanism.sweep({slide: np.linspace(0.0, -0.1, 3)}))
     assert axis is not None and axis.label == slide, "the unit of this mechanism is not known"
     np.testing.assert_allclose(axis.values, [0.0, -0.05, -0.1])
+
+
+def test_texts_tell_poses_by_the_drive_too(motion):
+    said = str(jk.velocities(motion, {"ground-crank": 2.0}))
+    at = {int(pose): float(degrees) for pose, degrees in re.findall(r"at pose (\d) \(([-\d.]+) deg\)", said)}
+    assert len(at) > 1
+    assert all(degrees == pytest.approx(np.rad2deg(ANGLES[pose]), rel=1e-3) for pose, degrees in at.items())
+    again = motion.mechanism.sweep({"ground-crank": np.array([0.0, 0.1, 0.0])})
+    assert " deg)" not in str(jk.velocities(again, {"ground-crank": 2.0}))
 
 
 @pytest.mark.parametrize("name", [name for name in EFFECTS if name != "equilibrium"])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,7 +17,7 @@ from jaxkin._names import listed
 from jaxkin.effects.forces.changes import ORDER
 from jaxkin.effects.forces.friction_result import Friction
 from jaxkin.effects.forces.wrenches import units_of
-from jaxkin.effects.pose_axis import drive_axis
+from jaxkin.effects.pose_axis import drive_axis, pose_names
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.singularity import singular_report
@@ -52,12 +53,12 @@ class DriveForces(Result):
     def __str__(self) -> str:
         closed = int(np.sum(self.motion.closed))
         lines = [f"Drive forces in {closed} closed poses of {len(self.motion)}"]
-        width = max(map(len, self.forces))
+        width, named = max(map(len, self.forces)), pose_names(self.motion)
         for name, values in self.forces.items():
-            lines.append(f"  {name:<{width}}  {_range(np.asarray(values), self.units[name])}")
+            lines.append(f"  {name:<{width}}  {_range(np.asarray(values), self.units[name], named)}")
         power = np.asarray(self.power)
         if np.any(np.nan_to_num(power)):
-            lines.append(f"  {'power':<{width}}  {_range(power, 'W')}")
+            lines.append(f"  {'power':<{width}}  {_range(power, 'W', named)}")
         if free := resting_freedoms(self.motion.mechanism.linkage, self.forces):
             lines.append(f"  without a drive, and counted as held: {listed(free)} (by what load, jk.reactions says)")
         lines += [f"  {line}" for line in singular_report(self.motion, ORDER)]
@@ -82,13 +83,13 @@ class DriveForces(Result):
 jax.tree_util.register_dataclass(DriveForces, data_fields=["motion", "forces", "powers", "friction"], meta_fields=[])
 
 
-def _range(values: np.ndarray, unit: str) -> str:
+def _range(values: np.ndarray, unit: str, named: Callable[[int], str]) -> str:
     """Say the least, the largest and the root mean square of the finite values."""
     if not np.isfinite(values).any():
         return "unknown"
     low, high = int(np.nanargmin(values)), int(np.nanargmax(values))
     mean = np.sqrt(np.nanmean(values**2))
     return (
-        f"from {values[low]:.4g} {unit} at pose {low} to {values[high]:.4g} {unit} at pose {high}, "
+        f"from {values[low]:.4g} {unit} at {named(low)} to {values[high]:.4g} {unit} at {named(high)}, "
         f"root mean square {mean:.4g} {unit}"
     )

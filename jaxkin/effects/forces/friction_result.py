@@ -13,6 +13,7 @@ from jaxtyping import Array, Bool, Float
 from jaxkin._guesses import Result
 from jaxkin.effects.forces.friction_of import undetermined_friction
 from jaxkin.effects.forces.undetermined import Undetermined, undetermined
+from jaxkin.effects.pose_axis import pose_names
 from jaxkin.mechanism.motion import Motion
 
 
@@ -49,14 +50,14 @@ class Friction(Result):
 
     def lines(self) -> list[str]:
         """Say what friction does, in lines of a report."""
-        found, closed = [], np.asarray(self.motion.closed)
+        found, closed, at = [], np.asarray(self.motion.closed), pose_names(self.motion)
         for name, values in self.normal.items():
             normal, losses = np.asarray(values), np.asarray(self.losses[name])
             if not np.isfinite(normal).any():
                 continue
             found.append(
-                f"friction in {name}: pressed by up to {np.nanmax(normal):.4g} N at pose {np.nanargmax(normal)}, loses "
-                f"up to {np.nanmax(losses):.4g} W at pose {np.nanargmax(losses)}"
+                f"friction in {name}: pressed by up to {np.nanmax(normal):.4g} N at {at(np.nanargmax(normal))}, loses "
+                f"up to {np.nanmax(losses):.4g} W at {at(np.nanargmax(losses))}"
             )
             rests = np.asarray(self.rests[name]) & closed
             if rests.any():

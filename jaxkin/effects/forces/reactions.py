@@ -38,7 +38,7 @@ from jaxkin.effects.forces.pose_groups import by_groups, on_cores
 from jaxkin.effects.forces.screws import Scale, cross
 from jaxkin.effects.forces.undetermined import Undetermined, undetermined
 from jaxkin.effects.forces.wrenches import Loads, acting_on, loads, units_of
-from jaxkin.effects.pose_axis import drive_axis
+from jaxkin.effects.pose_axis import drive_axis, pose_names
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.units import METRES
@@ -99,12 +99,12 @@ class Reactions(Result):
         if len(unknown) == len(forces):
             return f"{lines[0]}\n  unknown: a load or a rate is no finite number in any of them"
         order = sorted(set(forces).difference(unknown), key=lambda name: -float(np.nanmax(forces[name])))
-        width = max(map(len, order[:MAX_LINES]))
+        width, at = max(map(len, order[:MAX_LINES])), pose_names(self.motion)
         for name in order[:MAX_LINES]:
             torque = np.linalg.norm(np.asarray(self.torques[name]), axis=1)
             lines.append(
-                f"  {name:<{width}}  force up to {np.nanmax(forces[name]):.4g} N at pose {np.nanargmax(forces[name])}, "
-                f"torque up to {np.nanmax(torque):.4g} N m at pose {np.nanargmax(torque)}"
+                f"  {name:<{width}}  force up to {np.nanmax(forces[name]):.4g} N at {at(np.nanargmax(forces[name]))}, "
+                f"torque up to {np.nanmax(torque):.4g} N m at {at(np.nanargmax(torque))}"
             )
         if len(order) > MAX_LINES:
             lines.append(f"  and {len(order) - MAX_LINES} more: see .forces and .torques")

@@ -20,7 +20,7 @@ from jaxkin.effects.forces.places import places
 from jaxkin.effects.forces.reactions import reactions
 from jaxkin.effects.forces.screws import velocity_at
 from jaxkin.effects.forces.wrenches import nan_unless_closed
-from jaxkin.effects.pose_axis import drive_axis
+from jaxkin.effects.pose_axis import drive_axis, pose_names
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.effects.rates import velocities
 from jaxkin.geometry.movements import is_length
@@ -63,9 +63,10 @@ class Transmission(Result):
         if np.isfinite(ratio).any():
             lines.append(f"  ratio of rates from {np.nanmin(ratio):.4g} to {np.nanmax(ratio):.4g}")
         if np.isfinite(angle).any():
+            at = pose_names(self.motion)
             lines.append(
-                f"  transmission angle from {np.nanmin(angle):.4g} deg at pose {np.nanargmin(angle)} to "
-                f"{np.nanmax(angle):.4g} deg at pose {np.nanargmax(angle)}"
+                f"  transmission angle from {np.nanmin(angle):.4g} deg at {at(np.nanargmin(angle))} to "
+                f"{np.nanmax(angle):.4g} deg at {at(np.nanargmax(angle))}"
             )
         if without := int((np.isnan(angle) & np.isfinite(ratio)).sum()):
             lines.append(f"  no force goes through {self.joint} in {without} poses: no transmission angle there")
