@@ -105,7 +105,10 @@ def value_and_slopes(measured: DesignMeasure, mechanism: Mechanism, driven: tupl
 
 
 @partial(jax.jit, static_argnums=0)
-def _batch(measured: DesignMeasure, mechanism: Mechanism, driven: tuple, designs: Float[Array, "designs numbers"]):
+def evaluate_batch(
+    measured: DesignMeasure, mechanism: Mechanism, driven: tuple, designs: Float[Array, "designs numbers"]
+):
+    """Evaluate some designs, traced ones too: values, and which are reached."""
     return jax.vmap(measured, (None, None, 0))(mechanism, driven, designs)
 
 
@@ -122,7 +125,7 @@ def evaluate(
     padded = np.concatenate([designs, np.repeat(designs[-1:], count * length - len(designs), axis=0)])
 
     def run(batch: Float[np.ndarray, "designs numbers"]):
-        return jax.device_get(_batch(measured, mechanism, driven, batch))
+        return jax.device_get(evaluate_batch(measured, mechanism, driven, batch))
 
     found = in_threads(run, np.split(padded, count), available_cores() if on_cpu() else 1)
     values, reached = (np.concatenate(column)[: len(designs)] for column in zip(*found, strict=True))

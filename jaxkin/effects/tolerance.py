@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Array, Float
 
 from jaxkin._arguments import positive_number
+from jaxkin._traced import traced
 
 USUAL_LIMIT = 3.0
 """Limit of a normal deviation in standard deviations where none is said: 99.73 % of parts are within it."""
@@ -16,16 +17,17 @@ USUAL_LIMIT = 3.0
 
 @dataclass(frozen=True)
 class Tolerance:
-    """How one length, or the place of a pin in its hole, deviates. Numbers are in the unit of the length."""
+    """How one length, or the place of a pin in its hole, deviates. Numbers are in the unit of the length, and may be
+    traced by JAX."""
 
-    limit: float
+    limit: float | Array
     """The largest deviation that the worst case counts with."""
-    deviation: float
+    deviation: float | Array
     """The standard deviation of a normal distribution; unused by an even one."""
     distribution: Literal["even", "normal"]
     """"even": all deviations up to the limit are as likely; "normal": the bell curve, not cut at the limit."""
 
-    def standard_deviation(self, dimensions: int = 1) -> float:
+    def standard_deviation(self, dimensions: int = 1) -> float | Array:
         """Compute the standard deviation of one component: of a length, or of a place evenly within a circle or a ball.
 
         A point evenly in a ball of n dimensions and radius t has the variance t^2 / (n + 2) along each of them.
@@ -35,7 +37,7 @@ class Tolerance:
     def drawn(self, random: np.random.Generator, samples: int, dimensions: int = 1) -> Float[np.ndarray, "samples _"]:
         """Draw deviations, a row of `dimensions` components each."""
         if self.distribution == "normal":
-            return self.deviation * random.standard_normal((samples, dimensions))
+            return np.asarray(self.deviation * random.standard_normal((samples, dimensions)))
         if dimensions == 1:
             return random.uniform(-self.limit, self.limit, (samples, 1))
         towards = random.standard_normal((samples, dimensions))
@@ -43,10 +45,12 @@ class Tolerance:
         return self.limit * random.uniform(size=(samples, 1)) ** (1 / dimensions) * towards
 
     def __str__(self) -> str:
+        if traced(self.limit, self.deviation):
+            return "traced by JAX"
         return f"± {self.limit:.4g}" if self.distribution == "even" else f"sigma {self.deviation:.4g}"
 
 
-def sigma(deviation: float | int, limit: float | int | None = None) -> Tolerance:
+def sigma(deviation: float | int | Array, limit: float | int | Array | None = None) -> Tolerance:
     """State that a length is normally distributed about its nominal value, as a tolerance of `jk.tolerances`.
 
     `deviation` is the standard deviation in the unit of the length (radians for angles), `limit` the deviation that the
@@ -68,6 +72,8 @@ def named(key: Any) -> str:
     return f"clearance of {key}" if isinstance(key, str) else " ".join(map(str, key))
 
 
-def _positive(what: str, given: Any) -> float:
-    """Check a tolerance or what it is made of; ValueError for what is no positive number."""
-    return float(positive_number(given, what, "a positive number, as 0.05 for plus and minus 0.05, or jk.sigma(0.02)"))
+def _positive(what: str, given: Any) -> float | Array:
+    """Check a tolerance or what it is made of; ValueError for what is no positive number. Traced ones stay so."""
+    expected = "a positive number, as 0.05 for plus and minus 0.05, or jk.sigma(0.02)"
+    number = positive_number(given, what, expected)
+    return number if traced(number) else float(number)

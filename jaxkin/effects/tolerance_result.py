@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -50,10 +50,16 @@ class Tolerances(Result):
     """Derivatives of the measure by the lengths, then by the offsets of pins along the axes of their joint frames."""
     wanted: tuple[float, float] | None = None
     """The measure that designs shall have, lowest and highest."""
-    extremes: tuple[float, float] = (np.nan, np.nan)
-    """The measure of the two designs that the worst case stands for, computed in full; NaN where one does not close."""
+    in_full: tuple[float, float] | Callable[[], tuple[Array, Array]] = (np.nan, np.nan)
+    """The `extremes`, or what computes them where numbers are traced, and only what is asked for should be computed."""
     samples: Float[np.ndarray, " samples"] = field(default_factory=lambda: np.zeros(0))
     """The measure of designs drawn at random; NaN for designs that do not close."""
+
+    @cached_property
+    def extremes(self) -> tuple[float, float] | tuple[Array, Array]:
+        """The measure of the two designs that the worst case stands for, computed in full; NaN where one does not
+        close."""
+        return self.in_full() if callable(self.in_full) else self.in_full
 
     @cached_property
     def sensitivities(self) -> Float[np.ndarray | Array, " rows"]:
@@ -67,16 +73,14 @@ class Tolerances(Result):
         return xp.stack(rows)
 
     @property
-    def limits(self) -> Float[np.ndarray, " rows"]:
+    def limits(self) -> Float[np.ndarray | Array, " rows"]:
         """The deviation of each that the worst case counts with."""
-        return np.array([each.limit for each in self.stated])
+        return _row([each.limit for each in self.stated])
 
     @property
-    def deviations(self) -> Float[np.ndarray, " rows"]:
+    def deviations(self) -> Float[np.ndarray | Array, " rows"]:
         """The standard deviation of each; of a clearance that along one axis."""
-        return np.array(
-            [each.standard_deviation(size) for each, size in zip(self.stated, self.dimensions, strict=True)]
-        )
+        return _row([each.standard_deviation(size) for each, size in zip(self.stated, self.dimensions, strict=True)])
 
     @property
     def worst_case(self) -> float | Array:
@@ -116,23 +120,25 @@ class Tolerances(Result):
             return None
         return float(np.mean((self.samples >= self.wanted[0]) & (self.samples <= self.wanted[1])))
 
-    def worst_deviations(self) -> Float[np.ndarray, " numbers"]:
+    def worst_deviations(self) -> Float[np.ndarray | Array, " numbers"]:
         """Find the deviations that together raise the measure most to first order; reversed they lower it most.
 
         Where the first order is zero, as at an extremum of the measure, a deviation goes to its limit all the same: the
         designs that are computed in full show what the second order does.
         """
+        xp = jnp if traced(self.slopes, self.limits) else np
         parts, first = [], 0
-        for stated, size in zip(self.stated, self.dimensions, strict=True):
-            slope = np.asarray(self.slopes[first : first + size])
-            length = np.linalg.norm(slope)
-            parts.append(stated.limit * (slope / length if length > 0 else np.eye(size)[0]))
+        for limit, size in zip(self.limits, self.dimensions, strict=True):
+            slope = xp.asarray(self.slopes[first : first + size])
+            length = _root(xp.sum(slope**2))
+            direction = slope / xp.where(length > 0, length, 1.0)
+            parts.append(limit * xp.where(length > 0, direction, np.eye(size)[0]))
             first += size
-        return np.concatenate(parts)
+        return xp.concatenate(parts)
 
     def with_values(self, extremes: tuple[float, float], samples: Float[np.ndarray, " samples"]) -> Tolerances:
         """Add the measures of designs that were evaluated in full."""
-        return replace(self, extremes=extremes, samples=samples)
+        return replace(self, in_full=extremes, samples=samples)
 
     def allowed(
         self, error: float | int, rule: Literal["worst case", "root sum of squares"] = "worst case"
@@ -238,12 +244,17 @@ class AllowedTolerances(Result):
         return "\n".join(lines)
 
 
+def _row(entries: list[Any]) -> Any:
+    """Make a row of numbers, of JAX where one is traced."""
+    return jnp.stack(entries) if traced(entries) else np.array(entries)
+
+
 def _root(square: Any) -> Any:
     """Compute a square root: of a traced zero with a derivative of zero, since that of `jnp.sqrt` is no number."""
     return root(square) if traced(square) else np.sqrt(square)
 
 
-def _interval(pair: tuple[float, float]) -> str:
+def _interval(pair: tuple[float | Array, float | Array]) -> str:
     return " to ".join("not closed" if np.isnan(end) else f"{end:.6g}" for end in pair)
 
 

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Array, Float
 
 from jaxkin._arguments import by_name, check_mechanism, whole_number
 from jaxkin._traced import traced
 from jaxkin.dimensions.lengths import find_length, lengths_now, range_of
-from jaxkin.effects.design_batch import DesignMeasure, evaluate, value_and_slopes
+from jaxkin.effects.design_batch import DesignMeasure, evaluate, evaluate_batch, value_and_slopes
 from jaxkin.effects.pin_play import directions_of_play
 from jaxkin.effects.tolerance import Tolerance, as_tolerance, named
 from jaxkin.effects.tolerance_result import Tolerances
@@ -61,9 +62,10 @@ def tolerances(
     These are of first order. `samples` designs are drawn and evaluated in full, as batches on all cores: none of the
     three is assumed there. With `wanted`, (low, high), the yield is the share of designs whose measure is within.
 
-    With `samples=0`, numbers may be traced: the result can be differentiated by the mechanism, as a loss. Raises
-    ValueError for names that are not there, tolerances that are no positive numbers or reach below zero, lengths that
-    the loops leave no room for, a measure that is not one finite number, and a nominal mechanism that does not close.
+    With `samples=0`, numbers may be traced: the result can be differentiated by the mechanism, the drive and the
+    tolerances, as a loss. Raises ValueError for names that are not there, tolerances that are no positive numbers or
+    reach below zero, lengths that the loops leave no room for, a measure that is not one finite number, and a nominal
+    mechanism that does not close.
     """
     stated = {key: as_tolerance(f"length {key!r}", given) for key, given in _lengths(lengths).items()}
     played = {
@@ -90,8 +92,9 @@ def tolerances(
     )
     driven = tuple(_displacements(key, value) for key, value in drive.items())
     places = np.zeros(sum(directions.values()))
-    on_host = not traced(mechanism, driven, nominal)
-    start = np.concatenate([nominal, places]) if on_host else jnp.concatenate([jnp.stack(nominal), places])
+    limits_of_each = [(each.limit, each.deviation) for each in (*stated.values(), *played.values())]
+    on_host = not traced(mechanism, driven, nominal, limits_of_each)
+    start = np.concatenate([nominal, places]) if on_host else jnp.concatenate([jnp.asarray(nominal, float), places])
     value, reached, slopes = value_and_slopes(measured, mechanism, driven, start)
     sizes = [1] * len(stated) + list(directions.values())
     if on_host:
@@ -111,10 +114,21 @@ def tolerances(
         wanted=limits,
     )
     if not on_host:
-        return found
+        full = partial(evaluate_batch, measured, mechanism, driven)
+        return replace(found, in_full=partial(_extremes, found, full, jnp.asarray(start)))
     poses = 1 if measured.one_pose or not driven else len(driven[0])
     evaluated = partial(evaluate, measured, mechanism, driven, poses=poses)
     return _sampled(found, evaluated, np.asarray(start), samples, seed)
+
+
+def _extremes(
+    found: Tolerances, evaluated: Callable[[Array], tuple[Array, Array]], start: Float[Array, " numbers"]
+) -> tuple[Array, Array]:
+    """Evaluate the two designs of the worst case where numbers are traced; NaN where one does not close."""
+    worst = found.worst_deviations()
+    values, reached = evaluated(start + jnp.stack([-worst, worst]))
+    low, high = jnp.where(reached & jnp.isfinite(values), values, jnp.nan)
+    return low, high
 
 
 def _sampled(
@@ -129,7 +143,7 @@ def _sampled(
     `evaluated` is `design_batch.evaluate` of designs.
     """
     worst = found.worst_deviations()
-    alone = np.diag(SMALL * np.repeat([each.limit for each in found.stated], found.dimensions))
+    alone = np.diag(SMALL * np.repeat(np.asarray(found.limits), found.dimensions))
     drawn = np.zeros((0, len(start)))
     if samples:
         random = np.random.default_rng(seed)
@@ -156,7 +170,7 @@ def _lengths(given: Any) -> Mapping[Any, Any]:
 def _nominal(mechanism: Mechanism, stated: Mapping[Any, Tolerance]) -> list[Any]:
     """Look up the nominal lengths; ValueError where a tolerance reaches below zero, or does not fit others."""
     nominal = lengths_now(mechanism.linkage, list(stated))
-    if traced(nominal) or not stated:
+    if traced(nominal, [each.limit for each in stated.values()]) or not stated:
         return nominal
     for (key, tolerance), now in zip(stated.items(), nominal, strict=True):
         low, high = range_of(find_length(mechanism.linkage, key))

@@ -1,0 +1,71 @@
+"""Tolerances as objectives: by the tolerances themselves, and by the designs of the worst case computed in full."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+import jaxkin as jk
+from jaxkin.examples.paths import fourbar
+
+CRANK, COUPLER, ROCKER = ("crank", "A", "B"), ("coupler", "B", "C"), ("rocker", "C", "D")
+LENGTHS = (100.0, 40.0, 120.0, 80.0)
+STATED = jnp.array([0.05, 0.1, 0.02, 0.03])
+"""Of crank and coupler, the standard deviation of the rocker, and the play of C."""
+
+
+def rocker(pose):
+    return pose.coordinates["D"][0]
+
+
+def spread(stated, crank=LENGTHS[1]) -> jk.Tolerances:
+    return jk.tolerances(
+        fourbar(*LENGTHS).with_lengths({CRANK: crank}),
+        {CRANK: stated[0], COUPLER: stated[1], ROCKER: jk.sigma(stated[2])},
+        rocker,
+        drive={"A": 0.7},
+        clearances={"C": stated[3]},
+        samples=0,
+    )
+
+
+@pytest.mark.long
+def test_spreads_by_the_tolerances_that_make_them():
+    """The worst case is a sum of parts that are proportional to the tolerances, each squared in the variance."""
+    known = spread(np.asarray(STATED))
+    slope = jax.jit(jax.grad(lambda stated: spread(stated).worst_case))(STATED)
+    shares = np.abs(known.sensitivities) * [1.0, 1.0, 3.0, 1.0]
+    np.testing.assert_allclose(slope, shares, rtol=1e-12)
+    variance = jax.grad(lambda stated: spread(stated).standard_deviation ** 2)(STATED)
+    np.testing.assert_allclose(
+        np.asarray(variance) * STATED / 2, known.contributions / 100 * known.standard_deviation**2, rtol=1e-12
+    )
+
+
+@pytest.mark.long
+def test_designs_computed_in_full_have_the_derivatives_of_differences():
+    """They were NaN where numbers are traced, with a derivative of zero. The central difference errs by the square of
+    its step, 1e-3 of lengths of 40, and 1e-2 of the tolerances, whose third derivatives are those of a cosine."""
+
+    def ends(crank, size):
+        return jnp.stack(spread(size * STATED, crank).extremes)
+
+    value, slopes = ends(40.0, 1.0), jax.jit(jax.jacfwd(ends, (0, 1)))(40.0, 1.0)
+    known = spread(np.asarray(STATED))
+    np.testing.assert_allclose(value, known.extremes, rtol=1e-13)
+    by_crank = (ends(40.001, 1.0) - ends(39.999, 1.0)) / 0.002
+    np.testing.assert_allclose(slopes[0], by_crank, rtol=1e-6)
+    by_size = (ends(40.0, 1.01) - ends(40.0, 0.99)) / 0.02
+    np.testing.assert_allclose(slopes[1], by_size, rtol=1e-6)
+
+
+@pytest.mark.long
+def test_clearances_alone_can_be_differentiated():
+    """There is no length among the numbers of a design then."""
+
+    def worst(crank):
+        mechanism = fourbar(*LENGTHS).with_lengths({CRANK: crank})
+        return jk.tolerances(mechanism, {}, rocker, drive={"A": 0.7}, clearances={"C": 0.03}, samples=0).worst_case
+
+    difference = (worst(40.001) - worst(39.999)) / 0.002
+    np.testing.assert_allclose(jax.grad(worst)(40.0), difference, rtol=1e-6)
