@@ -116,6 +116,12 @@ class Result(Guided):
     """What a function finds out: one line in place of all its numbers, with the names of these, which are also told to
     whoever asks it for another one."""
 
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        from jaxkin._traced import tell_known_numbers  # imports JAX, which `import jaxkin` does not
+
+        tell_known_numbers(cls)
+
     def __repr__(self) -> str:
         owner = type(self)
         ending = "" if owner.__str__ is object.__str__ else "; print() sums it up"

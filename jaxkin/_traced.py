@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from functools import cache
+from functools import cache, wraps
+from typing import Any
 
 import jax
 import numpy as np
@@ -20,6 +21,29 @@ def inside_trace() -> bool:
     """Tell whether JAX traces the function that calls, though all it is given may be numbers: what is computed there
     from an array is traced."""
     return isinstance(_unchanged(_known_array()), Tracer)
+
+
+def tell_known_numbers(result: type) -> None:
+    """Let results of a class say that JAX traces their numbers where these are looked at.
+
+    Printed, such a result is named; what else it tells or writes raises ValueError.
+    """
+
+    def guarded(name: str, method: Any) -> Any:
+        @wraps(method)
+        def told(self: Any, *args: Any, **kwargs: Any) -> Any:
+            if not traced(*vars(self).values(), args, kwargs):
+                return method(self, *args, **kwargs)
+            if name == "__str__":
+                return f"{result.__name__}: traced by JAX, its numbers are known outside of jit, vmap and grad"
+            where = "outside of jit, vmap and grad"
+            raise ValueError(f"{name} of {result.__name__} is given numbers that JAX traces: call it {where}")
+
+        return told
+
+    for name in ("__str__", "plot", "save", "allowed"):
+        if name in vars(result):
+            setattr(result, name, guarded(name, vars(result)[name]))
 
 
 @contextmanager

@@ -16,7 +16,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from jaxkin._arguments import check_mechanism, several, whole_number
+from jaxkin._arguments import by_name, check_known, check_mechanism, several, whole_number
 from jaxkin.design.augmented_lagrangian import MET, Penalty, Verdict
 from jaxkin.design.constraints import Constraint
 from jaxkin.design.lbfgs import bounded
@@ -106,6 +106,8 @@ def optimize(
     if not (callable(loss) or isinstance(loss, Objective)):
         raise ValueError(f"the loss must be an objective of jk.design, or a function of the motion, got {loss!r}")
     check_mechanism(mechanism, "best designs")
+    driven = by_name(drive, "driven displacements", "{'A': angles}")
+    check_known("best designs", "jk.optimize", mechanism, loss, *driven.values())
     starts, seed = whole_number(starts, "starts", 1), whole_number(seed, "seed")
     if solver is None:
         solver = LevenbergMarquardt() if isinstance(loss, Objective) else LBFGS()

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import jax
 import numpy as np
 
-from jaxkin._arguments import check_mechanism, one_number, several
+from jaxkin._arguments import by_name, check_known, check_mechanism, one_number, several
 from jaxkin._guesses import Result
 from jaxkin.effects.extended import Extended
 from jaxkin.linkage.coordinates import coordinate, named
@@ -131,6 +131,8 @@ def work_precision(
     where no pose closes.
     """
     check_mechanism(mechanism, "accuracy and time")
+    driven = by_name(drive, "driven displacements", "{'A': angles}")
+    check_known("accuracy and time", "jk.work_precision", mechanism, *driven.values())
     entries = several(tolerances, "tolerances", "numbers", "[1e-6, 1e-12]")
     tolerances = tuple(float(one_number(each, "each of the tolerances")) for each in entries)
     methods = several(methods, "methods", "names of methods")

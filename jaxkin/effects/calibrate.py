@@ -95,7 +95,9 @@ def calibrate(
     iterations = whole_number(iterations, "iterations", 1)
     driven = by_name(drive, "driven displacements", "{'A': angles}")
     measurements = by_name(measured, "measurements", "{'D': angles}")
-    check_known("calibrations", "jk.calibrate", mechanism, tuple(driven.values()), tuple(measurements.values()))
+    weights = tuple(sigma.values()) if isinstance(sigma, Mapping) else sigma
+    numbers = (*driven.values(), *measurements.values(), weights)
+    check_known("calibrations", "jk.calibrate", mechanism, *numbers)
     motion = mechanism.sweep(driven, options=options)
     _check_start(motion.on_branch)
     data = data_of(mechanism, measured, sigma, len(motion))
@@ -103,13 +105,13 @@ def calibrate(
     unknowns, nominal = unknowns_of(mechanism, lengths, frames, markers, measured)
     model = Model(unknowns, data.kinds, tuple(driven), options_with(options))
     inputs = tuple(np.asarray(values, float) for values in driven.values())
-    numbers = _Numbers(inputs, data.values, data.weights, data.middles, nominal)
+    known = _Numbers(inputs, data.values, data.weights, data.middles, nominal)
     low, high = unknowns.ranges(mechanism.linkage).T
     scales = np.where(unknowns.are_angles(mechanism.linkage), 1.0, extent(mechanism))
 
     def evaluate(scaled: Float[np.ndarray, " unknowns"]):
         changes = scales * scaled
-        rows, slopes, reached = jax.device_get(_residuals(model, mechanism, numbers, changes))
+        rows, slopes, reached = jax.device_get(_residuals(model, mechanism, known, changes))
         valid = bool(np.all(reached) and np.isfinite(rows).all() and np.isfinite(slopes).all())
         valid &= bool(np.all((low <= nominal.values + changes) & (nominal.values + changes <= high)))
         return rows, slopes * scales, valid
@@ -121,7 +123,7 @@ def calibrate(
                 "it; leave it out, or give lengths that keep the mechanism what it is"
             )
     found = fit(evaluate, np.zeros(len(scales)), iterations, _bits())
-    return _result(mechanism, model, numbers, scales, found, given_sigma=sigma is not None)
+    return _result(mechanism, model, known, scales, found, given_sigma=sigma is not None)
 
 
 @partial(jax.jit, static_argnums=0)

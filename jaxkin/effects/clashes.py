@@ -59,7 +59,7 @@ def clashes(
     inside `jit`, `vmap` and `grad`.
     """
     check_motion(motion, "clashes")
-    check_known("clashes", "jk.clashes", motion)
+    check_known("clashes", "jk.clashes", motion, within, tolerance)
     mechanism = motion.mechanism
     if not any(part.is_solid for part in mechanism.solids):
         raise ValueError(

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float
@@ -161,6 +161,8 @@ def swept_volume(motion: Motion, part: str, *, resolution: float | None = None) 
     Runs on the host. Raises ValueError for a part that is not there, has no solid or an open one, for successive poses
     of which one is a quarter turn from the other, for a grid that is too large, and inside `jit`, `vmap` and `grad`.
     """
+    check_motion(motion, "swept volumes")
+    check_known("swept volumes", "jk.swept_volume", motion, resolution)
     solid, runs, left_out = _given(motion, part)
     corners = solid.outermost
     low = np.min([run.moved.min(axis=(0, 1)) for run in runs], axis=0)
@@ -200,10 +202,8 @@ def swept_volume(motion: Motion, part: str, *, resolution: float | None = None) 
     return SweptVolume(part, mesh, step, off, lost, *counts, field, origin, motion.mechanism.unit)
 
 
-def _given(motion: Any, part: str) -> tuple[Part, list[PoseRun], int]:
+def _given(motion: Motion, part: str) -> tuple[Part, list[PoseRun], int]:
     """Find the solid of a part, its closed poses, and the number of those left out; ValueError if there are none."""
-    check_motion(motion, "swept volumes")
-    check_known("swept volumes", "jk.swept_volume", motion)
     mechanism = motion.mechanism
     if part not in mechanism.parts:
         raise ValueError(f"there is no part {part!r}{nearest(str(part), mechanism.parts)}")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Literal
 
+import jax
 import numpy as np
 from jaxtyping import Array, Float
 
@@ -45,9 +46,10 @@ class Tolerance:
         return self.limit * random.uniform(size=(samples, 1)) ** (1 / dimensions) * towards
 
     def __str__(self) -> str:
-        if traced(self.limit, self.deviation):
-            return "traced by JAX"
         return f"± {self.limit:.4g}" if self.distribution == "even" else f"sigma {self.deviation:.4g}"
+
+
+jax.tree_util.register_dataclass(Tolerance, data_fields=["limit", "deviation"], meta_fields=["distribution"])
 
 
 def sigma(deviation: float | int | Array, limit: float | int | Array | None = None) -> Tolerance:

@@ -92,8 +92,7 @@ def tolerances(
     )
     driven = tuple(_displacements(key, value) for key, value in drive.items())
     places = np.zeros(sum(directions.values()))
-    limits_of_each = [(each.limit, each.deviation) for each in (*stated.values(), *played.values())]
-    on_host = not traced(mechanism, driven, nominal, limits_of_each)
+    on_host = not traced(mechanism, driven, nominal, *stated.values(), *played.values())
     start = np.concatenate([nominal, places]) if on_host else jnp.concatenate([jnp.asarray(nominal, float), places])
     value, reached, slopes = value_and_slopes(measured, mechanism, driven, start)
     sizes = [1] * len(stated) + list(directions.values())
@@ -170,7 +169,7 @@ def _lengths(given: Any) -> Mapping[Any, Any]:
 def _nominal(mechanism: Mechanism, stated: Mapping[Any, Tolerance]) -> list[Any]:
     """Look up the nominal lengths; ValueError where a tolerance reaches below zero, or does not fit others."""
     nominal = lengths_now(mechanism.linkage, list(stated))
-    if traced(nominal, [each.limit for each in stated.values()]) or not stated:
+    if traced(nominal, *stated.values()) or not stated:
         return nominal
     for (key, tolerance), now in zip(stated.items(), nominal, strict=True):
         low, high = range_of(find_length(mechanism.linkage, key))

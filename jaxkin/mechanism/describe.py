@@ -10,6 +10,7 @@ import numpy as np
 
 from jaxkin._grouped import SCREEN, grouped, kind_of, shortened
 from jaxkin._names import counted, listed
+from jaxkin._traced import traced
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.part import body_name
 from jaxkin.geometry.units import unit_name
@@ -41,6 +42,9 @@ def describe_mechanism(mechanism: Mechanism, verbose: bool = False) -> str:
     together, and of many loops and notes the first of a kind, unless `verbose`. Nor are more than a few fixed parts
     named then, nor all parts and joints of a long loop.
     """
+    if traced(mechanism):
+        parts = counted(len(mechanism.parts), "part")
+        return f"Mechanism of {parts}: traced by JAX, its numbers are known outside of jit, vmap and grad"
     brief = len(mechanism.all_joints) > SCREEN and not verbose
     unit = f", lengths in {unit_name(mechanism.unit)}" if mechanism.unit else ""
     moving = len(mechanism.parts) - len(mechanism.fixed)

@@ -30,7 +30,7 @@ class PoseError(RuntimeError):
 
 def check(motion: Motion) -> None:
     """Raise PoseError if a pose is off the branch or beyond limits; ValueError where JAX traces the statuses."""
-    if traced(motion.status):
+    if traced(motion.status, motion.displacements):
         raise ValueError(
             "check(), throw=True and solve() without throw=False look at numbers, which JAX traces here: inside jit, "
             "vmap and grad write throw=False and read the status, and check() outside"

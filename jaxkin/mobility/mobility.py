@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin._arguments import check_known
 from jaxkin._guesses import Result
 from jaxkin._memory import once_for_each
 from jaxkin._names import counted, listed
@@ -103,8 +104,9 @@ def mobility(linkage: Linkage, unit: str = "") -> Mobility:
 
     The larger of the two ranks counts: at a singular pose (a parallelogram lying flat) the rank is lower although the
     mechanism has no further freedom. `unit` is the name of the unit of length, for messages. Raises ValueError where
-    the assembled pose is open: see `Mechanism.close`.
+    the assembled pose is open: see `Mechanism.close`, and inside `jit`, `vmap` and `grad`.
     """
+    check_known("freedoms", "mobility()", linkage)
     check_closed(linkage, unit, "mobility", "{}.mobility()")
     return _of_closed(linkage)
 

@@ -198,11 +198,7 @@ def _forces(
 
 
 def _by_coordinate(
-    linkage: Linkage,
-    unit: str,
-    all_loads: Loads,
-    moving: MovingParts,
-    sent: dict[int, Wrench],
+    linkage: Linkage, unit: str, all_loads: Loads, moving: MovingParts, sent: dict[int, Wrench]
 ) -> dict[JointCoordinate, Float[Array, " poses"]]:
     """Compute the generalised force that balances all loads for each (joint, coordinate): joules per radian, or per
     unit of length of the mechanism.

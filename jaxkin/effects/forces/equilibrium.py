@@ -168,7 +168,7 @@ def equilibrium(
     check_mechanism(mechanism, "equilibria")
     drive = by_name(drive, "driven displacements", "{'A': np.linspace(0, 2 * np.pi, 73)}")
     given, frictions = loads_and_frictions(all_applied(applied))
-    check_known("equilibria", "jk.equilibrium", mechanism, dict(drive), masses, given, frictions)
+    check_known("equilibria", "jk.equilibrium", mechanism, dict(drive), masses, given, frictions, gravity)
     if frictions:
         raise ValueError(
             f"friction in {frictions[0].joint!r} has no direction at rest, where the mechanism stays over a range of "

@@ -112,7 +112,8 @@ def inverse(
     check_mechanism(mechanism, "inverse kinematics")
     if not isinstance(targets, Mapping) or not targets:
         raise ValueError(f"targets map jk.pose, jk.point, jk.orientation or joints to values, got {targets!r}")
-    if traced((mechanism, [*targets.values()])):
+    named = [*targets.values(), *by_name(weights or {}, "weights", "{'A': 10.0}").values()]
+    if traced(mechanism, named, *by_name(rest or {}, "places of rest", "{'A': 0.1}").values()):
         raise ValueError("inverse is for numbers: inside jit, vmap and grad sweep over targets instead")
     starts, iterations = whole_number(starts, "starts", 1), whole_number(iterations, "iterations", 1)
     seed, limits = whole_number(seed, "seed"), yes_or_no(limits, "limits")
