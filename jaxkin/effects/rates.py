@@ -22,6 +22,7 @@ from jaxtyping import Array, Bool, Float
 from jaxkin._arguments import by_name, check_motion, numbers
 from jaxkin._guesses import Result
 from jaxkin._names import nearest
+from jaxkin.effects.angle_locks import not_determined
 from jaxkin.effects.pose_axis import drive_axis, pose_names
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.effects.pose_shards import in_shards
@@ -32,7 +33,6 @@ from jaxkin.linkage.joint_motion import transforms
 from jaxkin.mechanism.collect import nan_where_not_finite
 from jaxkin.mechanism.known_motion import Inputs, JointRates, KnownDrive, KnownMotion, derivatives, follow, known_motion
 from jaxkin.mechanism.motion import Motion, as_point
-from jaxkin.mechanism.singularity import singular_report
 from jaxkin.solve.closure.rod_spin import vee
 from jaxkin.solve.execution.compiler import whole_program
 from jaxkin.solve.range.groups import in_groups
@@ -112,7 +112,7 @@ class Rates(Result):
                 lines.append(f"  {name} [{unit}]: {said}")
         if unknown := int(np.isnan(rows).any(axis=0).sum()):
             lines.append(f"  not known at {unknown} of {len(self.motion)} poses")
-        lines += [f"  {line}" for line in singular_report(self.motion, self.order)]
+        lines += [f"  {line}" for line in not_determined(self.motion, self.order)]
         return "\n".join(lines)
 
     def plot(self, path: str | Path, times: Any = None) -> Path:

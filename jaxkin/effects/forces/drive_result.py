@@ -14,13 +14,13 @@ from jaxtyping import Array, Float
 
 from jaxkin._guesses import Result
 from jaxkin._names import listed
+from jaxkin.effects.angle_locks import not_determined
 from jaxkin.effects.forces.changes import ORDER
 from jaxkin.effects.forces.friction_result import Friction
 from jaxkin.effects.forces.wrenches import units_of
 from jaxkin.effects.pose_axis import drive_axis, pose_names
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.mechanism.motion import Motion
-from jaxkin.mechanism.singularity import singular_report
 from jaxkin.mobility.infeasible_drive import resting_freedoms
 
 
@@ -61,7 +61,7 @@ class DriveForces(Result):
             lines.append(f"  {'power':<{width}}  {_range(power, 'W', named)}")
         if free := resting_freedoms(self.motion.mechanism.linkage, self.forces):
             lines.append(f"  without a drive, and counted as held: {listed(free)} (by what load, jk.reactions says)")
-        lines += [f"  {line}" for line in singular_report(self.motion, ORDER)]
+        lines += [f"  {line}" for line in not_determined(self.motion, ORDER)]
         lines += [f"  {line}" for line in (self.friction.lines() if self.friction else ())]
         return "\n".join(lines)
 

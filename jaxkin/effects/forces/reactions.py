@@ -17,6 +17,7 @@ from jaxkin._grouped import MAX_LINES
 from jaxkin._guesses import Result
 from jaxkin._named import Named
 from jaxkin._names import listed, nearest
+from jaxkin.effects.angle_locks import not_determined
 from jaxkin.effects.forces.acting import (
     STANDARD_GRAVITY,
     Acting,
@@ -45,7 +46,6 @@ from jaxkin.geometry.units import METRES
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.known_motion import Inputs, KnownDrive, KnownMotion, known_motion
 from jaxkin.mechanism.motion import Motion
-from jaxkin.mechanism.singularity import singular_report
 from jaxkin.solve.execution.compiler import whole_program
 from jaxkin.solve.status import is_closed_on_branch
 
@@ -111,7 +111,7 @@ class Reactions(Result):
         if unknown:
             lines.append(f"  unknown in {listed(unknown)}: a load there is no finite number in any of them")
         lines += self._what_is_held(float(np.nanmax(forces[order[0]])))
-        lines += [f"  {line}" for line in singular_report(self.motion, ORDER)]
+        lines += [f"  {line}" for line in not_determined(self.motion, ORDER)]
         lines += [f"  {line}" for line in (self.friction.lines() if self.friction else ())]
         lines += [f"  {each}" for each in self.undetermined[:MAX_LINES]]
         return "\n".join(lines)
