@@ -60,6 +60,7 @@ from jaxkin.assembly.inference.sleeves import (
     barrels,
     driven_sleeves,
     hollow_axles,
+    hollow_pins,
     seated_sleeves,
     sleeves,
     sliding_rods,
@@ -158,7 +159,8 @@ def _take_hubs_and_find_fasteners(known: Known) -> set[str]:
     # no fasteners are rings and sleeves, nor what slides, turns or rolls
     rings = {name for each in known.measured.bearings for name in (each.outer, each.inner)}
     fastening -= rings | known.sleeves | known.closed
-    fastening -= sliding_rods(known, set_in) | hollow_axles(known) | driven | barrels(set_in)
+    axles = hollow_axles(known)
+    fastening -= sliding_rods(known, set_in) | (axles - hollow_pins(known, axles)) | driven | barrels(set_in)
     known.blocks = blocks_between_walls(known, fastening)
     fastening -= rollers(known, fastening) | known.blocks | in_grooves(known, fastening)
     fastening -= {each.screw.part for each in lead_nuts(known)}

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import NamedTuple
 
 import numpy as np
 
-from jaxkin.assembly.inference.axes import CommonAxis, engaged
+from jaxkin.assembly.inference.axes import MIN_ENGAGED, CommonAxis, apart, engaged, shared_length
 from jaxkin.assembly.inference.bearings import ROUND
 from jaxkin.assembly.inference.bores import Bore, merged
 from jaxkin.assembly.inference.inference import Inference
@@ -141,6 +142,30 @@ def hollow_axles(known: Known) -> set[str]:
         if any(last <= low for _, last in ends) and any(first >= high for first, _ in ends):
             result.add(name)
     return result
+
+
+def hollow_pins(known: Known, axles: Collection[str]) -> set[str]:
+    """Find those of some hollow axles in whose bore nothing lies, and that no bore of another part is in line with, as
+    that of a bolt which is not drawn: they are hollow to be light, as the gudgeon pins of pistons are, and pins as
+    solid ones are."""
+    lined = {id(bore) for pair in (*known.axes, *known.tapped) for bore in (pair.one, pair.other)}
+    result = set()
+    for name in axles:
+        beside = [bore for part in known.measured.beside(known.solids[name]) for bore in known.bores[part.name]]
+        pin = max((bore for bore in known.bores[name] if not bore.hole), key=lambda bore: bore.half)
+        holes = [bore for bore in known.bores_on(name, pin) if bore.hole]
+        if not any(id(hole) in lined or any(_lies_in(bore, hole) for bore in beside) for hole in holes):
+            result.add(name)
+    return result
+
+
+def _lies_in(pin: Bore, hole: Bore) -> bool:
+    """Tell whether a pin of another part is in a hole, along it, however loose it is there."""
+    if pin.hole or pin.radius > hole.radius:
+        return False
+    offset, tilt = apart(pin, hole)
+    within = tilt < ACROSS and offset + pin.radius <= hole.radius
+    return within and shared_length(pin, hole) > MIN_ENGAGED * hole.radius
 
 
 def is_round(known: Known, name: str, own: list[Bore], most: float = ROUND) -> bool:
