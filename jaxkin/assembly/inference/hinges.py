@@ -194,7 +194,8 @@ def _room(
     between = None if pair.virtual else _between(known, pair, coaxial.found)
     if between is not None and (between <= MAX_AXIAL_PLAY * hole.radius or not any(coaxial.pins)):
         room = between if room is None else min(room, between)
-    return room, near
+    grooved = [play for pair, play in known.in_ring_grooves.items() if {body[part] for part in pair} == coaxial.owners]
+    return min(each for each in (room, *grooved) if each is not None) if grooved else room, near
 
 
 def _reach(found: Sequence[CommonAxis], pair: CommonAxis) -> tuple[float, float]:

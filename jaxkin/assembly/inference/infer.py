@@ -50,6 +50,7 @@ from jaxkin.assembly.inference.pinned_slides import pinned_slides
 from jaxkin.assembly.inference.pocketed_nuts import nuts_in_pockets
 from jaxkin.assembly.inference.pressed_bars import pressed_bars
 from jaxkin.assembly.inference.retaining_rings import retaining_rings
+from jaxkin.assembly.inference.ring_grooves import in_ring_grooves, turning_in_hubs
 from jaxkin.assembly.inference.rod_end_bolts import bolted_balls
 from jaxkin.assembly.inference.screwed import screwed_bodies, screwed_in
 from jaxkin.assembly.inference.set_on import set_on_pins
@@ -143,6 +144,7 @@ def _take_bearings(known: Known) -> None:
 def _take_hubs_and_find_fasteners(known: Known) -> set[str]:
     """Take what holds shafts and hubs to each other, keys, flats, balls of rod ends, split rings, bushes and screws
     across; find which of the parts of the form of a fastener are fasteners."""
+    known.in_ring_grooves = in_ring_grooves(known)
     known.take(feathers(known))
     known.take([*keyed_hubs(known), *flatted_hubs(known)])
     known.take(bolted_balls(known))
@@ -166,13 +168,14 @@ def _take_hubs_and_find_fasteners(known: Known) -> set[str]:
     fastening -= {each.screw.part for each in lead_nuts(known)}
     known.take([*squared_hubs(known, fastening), *pressed_on_shoulders(known, fastening)])
     known.take(seated_on_squares(known, fastening))
-    fastening -= meshing_wheels(known, fastening)
+    fastening -= meshing_wheels(known, fastening) | turning_in_hubs(known, fastening)
     fastening -= swivel_screws(known, fastening)
     known.take(locked_threads(known, fastening))
     body = known.body
     others = [each for each in known.contacts if not (each.contact_state.is_flat or each.contact_state.is_pin)]
     others = [each for each in others if not (is_head_on_tube(known, each) or is_countersunk(known, each))]
     others = [each for each in others if not is_beside_its_hole(known, each)]
+    others = [each for each in others if not {each.parts, each.parts[::-1]} & known.in_ring_grooves.keys()]
     separate = [each.parts for each in others if len({body[part] for part in each.parts}) > 1]
     return fastening - {*known.fixed, *(part for parts in separate for part in parts)}
 

@@ -31,8 +31,8 @@ class Known:
 
     Only three things change after it is made. `take` adds inferences to `found`, from which `body` and `jointed`
     follow, and ignored pairs to `taken_back`. `infer` sets, before the rules that read them: `axes`, less those that
-    only bearings have, `rings`, `driven`, `closed`, `sleeves` and `blocks`. Sets are never gone through in their own
-    order: it depends on the seed of hashes.
+    only bearings have, `rings`, `driven`, `in_ring_grooves`, `closed`, `sleeves` and `blocks`. Sets are never gone
+    through in their own order: it depends on the seed of hashes.
     """
 
     def __init__(
@@ -83,6 +83,8 @@ class Known:
         and what is in its hole."""
         self.driven: set[Pair] = set()
         """Stepper motors that are one solid with their shaft, each with a hub on that."""
+        self.in_ring_grooves: Mapping[tuple[str, str], float] = {}
+        """Each screw that stands in a groove round a shaft, and that shaft, with the play between them."""
         self.closed: set[str] = set()
         """Bearings that are one ring each."""
         self.bores, found = measured.bores, measured.axes(clearance)

@@ -153,12 +153,13 @@ def _screw(known: Known, hole: Bore, pair: CommonAxis, fastening: Collection[str
     """Find the screw or pin in a radial hole whose end is at the shaft, or in it.
 
     One that is wider than the hole of a set screw ends before the axis of the shaft: its tip presses on the shaft. One
-    that ends in a slot along the shaft guides it.
+    that ends in a slot along the shaft guides it, and one in a groove round the shaft lets it turn.
     """
     if not _is_radial(hole, pair):
         return None
     inside = [each for each in known.axes if each.other is hole and not each.virtual]
     inside = [each for each in inside if not _runs_in_slot(known, each.one.part, pair)]
+    inside = [each for each in inside if (each.one.part, pair.one.part) not in known.in_ring_grooves]
     if any(_interlocks(known, each, pair) for each in inside):
         return None
     for each in inside:

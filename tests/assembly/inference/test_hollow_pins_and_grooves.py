@@ -1,11 +1,11 @@
-"""Hollow pins.
+"""Hollow pins, and screws in annular grooves.
 
 Each is drawn with a known truth, at a place, a size and in an order at random: these change nothing.
 """
 
 import pytest
 
-from reference.round_parts import SEEDS, anywhere, assembly, block, kind_of, owners, part, pin, ring
+from reference.round_parts import SEEDS, across, anywhere, assembly, block, kind_of, owners, part, pin, ring
 
 
 def fork_and_eye(in_fork, in_eye, *others):
@@ -44,3 +44,59 @@ def test_a_tube_with_something_in_its_bore_is_an_axle(other, seed):
     there for these, and neither fork nor eye holds the tube for being farthest out."""
     mechanism = anywhere(fork_and_eye(0.0, 0.0, other), seed).mechanism(fixed=["fork"], rigid=[["fork", other.name]])
     assert not any("'tube' held by" in note for note in mechanism.notes)
+
+
+def screw_in_hub(*shaft, end=6.0):
+    """A round hub with a radial hole, the screw in that, which ends at some distance from the axis, some shaft, and a
+    lever on a pin of the hub."""
+    hole = across(ring(3.0, 6.0, 9.0, 20.0)[2:3])
+    hub = part("hub", ring(9.0, 20.0, -30.0, 30.0), hole, pin(5.0, -30.0, 30.0, (-60.0, 0.0)))
+    lever = part("lever", ring(5.1, 9.0, -28.0, 28.0, (-60.0, 0.0)), block((-64, 10, -5), (-56, 60, 5)))
+    return assembly(hub, lever, part("shaft", *shaft), part("screw", across(pin(3.0, end, 20.0))))
+
+
+def grooved(width):
+    """A shaft with a groove all round it."""
+    return pin(9.0, -40.0, -width / 2), pin(6.0, -width / 2, width / 2), pin(9.0, width / 2, 48.0)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("width", [6.0, 7.0])
+@pytest.mark.parametrize("end", [6.0, 6.2])
+def test_a_screw_in_a_groove_round_a_shaft_takes_its_slide_and_leaves_its_turn(width, end, seed):
+    """Whether the tip fits the groove or has play in it, and whether it stands on the root or above it."""
+    mechanism = anywhere(screw_in_hub(*grooved(width), end=end), seed).mechanism(fixed=["hub"])
+    body = owners(mechanism)
+    assert body["screw"] == body["hub"]
+    assert kind_of(mechanism, "hub", "shaft") == "revolute"
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(
+    "shaft",
+    [
+        (pin(9.0, -40.0, 48.0), across(ring(3.0, 6.0, 6.0, 9.0)[2:3])),
+        (pin(9.0, -40.0, -3.0), block((-6, -6, -3), (6, 6, 3)), pin(9.0, 3.0, 48.0)),
+        grooved(14.0),
+    ],
+    ids=["dimple", "square", "neck"],
+)
+def test_a_screw_in_a_dimple_on_a_flat_or_in_a_wide_neck_holds_the_shaft(shaft, seed):
+    mechanism = anywhere(screw_in_hub(*shaft), seed).mechanism(fixed=["hub"])
+    body = owners(mechanism)
+    assert body["shaft"] == body["screw"] == body["hub"]
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_pin_of_a_fork_that_a_screw_keeps_in_its_groove_is_a_pin_still(seed):
+    """It may turn in the fork, but the eye turns on it: fork and eye have their hinge."""
+    hole = across(ring(2.0, 6.0, 10.0, 22.0, (-26.0, 0.0))[2:3])
+    lugs = [ring(10.0, 22.0, low, low + 12.0) for low in (-32.0, 20.0)]
+    fork = part("fork", *lugs, hole, block((-60, -20, -32), (-23, 20, 32)))
+    eye = part("eye", ring(10.0, 19.0, -20.0, 20.0), block((20, -10, -15), (150, 10, 15)))
+    bolt = part("bolt", pin(10.0, -32.0, 24.0), pin(7.0, 24.0, 28.0), pin(10.0, 28.0, 32.0))
+    keeper = part("screw", across(pin(2.0, 7.0, 22.0, (-26.0, 0.0))))
+    mechanism = anywhere(assembly(fork, eye, bolt, keeper), seed).mechanism(fixed=["fork"])
+    body = owners(mechanism)
+    assert body["bolt"] == body["screw"] == body["fork"]
+    assert kind_of(mechanism, "fork", "eye") == "revolute"
