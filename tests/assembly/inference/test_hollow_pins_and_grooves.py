@@ -1,4 +1,4 @@
-"""Hollow pins, and screws in annular grooves.
+"""Hollow pins, screws in annular grooves, and dowels that lie half in each of two parts.
 
 Each is drawn with a known truth, at a place, a size and in an order at random: these change nothing.
 """
@@ -100,3 +100,37 @@ def test_the_pin_of_a_fork_that_a_screw_keeps_in_its_groove_is_a_pin_still(seed)
     body = owners(mechanism)
     assert body["bolt"] == body["screw"] == body["fork"]
     assert kind_of(mechanism, "fork", "eye") == "revolute"
+
+
+def half_groove(radius, low, high, way):
+    """The round face of a groove about the axis z that is open by half, towards y or against it."""
+    surface, triangles = ring(radius, 2 * radius, low, high)[2]
+    return [(surface, triangles[way * triangles[:, :, 1].mean(axis=1) < 0])]
+
+
+def halves(low, high, *others):
+    """A base, a bush pressed into it, in which a crank turns, and a groove of each round the axis z."""
+    base = part("base", ring(40.0, 60.0, low, high, (0.0, -40.0)), half_groove(3.0, low, high, -1.0))
+    bush = part("bush", ring(20.0, 40.0, low, high, (0.0, -40.0)), half_groove(3.0, low, high, 1.0))
+    crank = part("crank", pin(19.8, low, high, (0.0, -40.0)), block((-5, -60, high + 1), (5, 20, high + 9)))
+    return assembly(base, bush, crank, *others)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(("ends", "held"), [((0.0, 12.0), True), ((0.0, 14.0), True), ((-20.0, 40.0), False)])
+def test_a_dowel_half_in_each_of_two_parts_of_one_body_is_held_there(ends, held, seed):
+    """Also one with an end that stands out, and no shaft, which comes out of its two halves on both sides."""
+    dowel = part("dowel", pin(3.0, *ends))
+    mechanism = anywhere(halves(0.0, 12.0, dowel), seed).mechanism(fixed=["base"])
+    body = owners(mechanism)
+    assert body["bush"] == body["base"] and (body["dowel"] == body["base"]) == held
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_pin_in_two_grooves_on_one_side_is_not_held(seed):
+    """It would fall out of both."""
+    base = part("base", block((-30, 3, 0), (30, 30, 12)), half_groove(3.0, 0.0, 12.0, -1.0))
+    more = part("more", block((-30, 3, 12), (30, 30, 24)), half_groove(3.0, 12.0, 24.0, -1.0))
+    drawn = assembly(base, more, part("dowel", pin(3.0, 0.0, 24.0)))
+    mechanism = anywhere(drawn, seed).mechanism(fixed=["base"], rigid=[["base", "more"]])
+    assert owners(mechanism)["dowel"] != owners(mechanism)["base"]
