@@ -9,6 +9,7 @@ The route is told on the page "Architecture". What the modules do on it:
 | what the file itself says of its joints | `exported`, `close_export`, `from_export`, `subassemblies` |
 | what solids imply beside exact contacts | `inference`, tried by `with_inferences` and `dropped_inference` |
 | bodies held to each other, where all else moves | `seats`, `guides`, `resting`, `lids`, `tight_fits`, `hinge_bores` |
+| valves that leave their seats, where nothing moves else | `lifting_seats` |
 | joints that may be none, since what they tie fits exactly | `exact_fits` |
 | parts that only spin, and those of them that are drawn to turn | `spinning`, `needless`, `at_rest`, `meant_to_turn` |
 | mechanisms of joints by hand alone: parts that nothing ties, faces in contact | `left_loose`, `kept_contacts` |

@@ -16,13 +16,14 @@ from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.springs import DrawnSpring, springs
 from jaxkin.assembly.lids import under_lids
+from jaxkin.assembly.lifting_seats import lifting_seats
 from jaxkin.assembly.meant_to_turn import with_turning
 from jaxkin.assembly.resting import leaves_all_moving, resting
 from jaxkin.assembly.seats import is_on_one_plane, seats_of, useful_freedoms
 from jaxkin.assembly.tight_fits import tight_fits
 from jaxkin.assembly.to_mechanism import MechanismOptions, detection_of, make_mechanism
 from jaxkin.assembly.undrawn_shafts import told_shafts
-from jaxkin.contacts.contact import Contact, Contacts
+from jaxkin.contacts.contact import Contact
 from jaxkin.joints.joint import Joint
 from jaxkin.topology.bodies import bodies, body_of_parts
 
@@ -60,11 +61,16 @@ def _with_springs(
     mechanism has fewer freedoms but still some; where all of it leaves none, without the least sure of it. Bodies that
     seats of faces leave a slide of no use are one body, and so are those that only lie on each other, where all that
     moves still does then. Where the inferences lock it, the weakest one without which it moves is dropped, and that is
-    said.
+    said. Valves leave their seats before, where nothing moves else.
     """
     trials = _Trials(assembly, contacts, options, tubes)
     seats = [each.inference for each in tubes]
     trial = trials.make(seats)
+    if not _moves(trial.mechanism) and (left := lifting_seats(trial.mechanism, trials.fasteners)):
+        fewer = replace(detection_of(assembly, contacts), contacts=tuple(each for each in contacts if each not in left))
+        if useful_freedoms(_Trials(assembly, fewer, options, tubes).make(seats).mechanism):
+            lifted = _with_springs(assembly, fewer, options, tubes)
+            return replace(lifted, history=(*left.values(), *lifted.history))
     seats, trial = _hold_all_but_lids(trials, seats, trial)
     seats, trial = _hold_seated(trials, seats, trial)
     seats, trial = _hold_lying(trials, seats, trial)
@@ -102,7 +108,7 @@ class _Trials:
     ) -> None:
         self.assembly, self.options = assembly, options
         source = detection_of(assembly, contacts)
-        used = Contacts(without(contacts, options.ignored), source.near_misses, source.notes)
+        used = replace(source, contacts=without(contacts, options.ignored))
         asked = {frozenset(pair) for pair in options.ignored if {*pair} <= {*assembly.names}}
         ignored = asked | {frozenset(contact.parts) for contact in contacts if contact not in used.contacts}
         check_ignored(contacts, options.ignore, asked)
@@ -111,9 +117,7 @@ class _Trials:
             names = assembly.names
             ignored |= {frozenset((each.part, other)) for each in tubes for other in names if other != each.seat}
             used, contacts = (
-                Contacts(
-                    tuple(each for each in some if not self.springs & {*each.parts}), source.near_misses, source.notes
-                )
+                replace(source, contacts=tuple(each for each in some if not self.springs & {*each.parts}))
                 for some in (used, contacts)
             )
         self.contacts = contacts
@@ -258,9 +262,8 @@ def _moves_as_before(trial: _Trial, other: _Trial, held: Sequence[Inference]) ->
 def _movable(trials: _Trials, seats: Sequence[Inference], trial: _Trial) -> Mechanism:
     """Find the mechanism with all its inferences counted; where these lock it, without the weakest that does."""
     mechanism, found = trial.mechanism, trial.inferences
-    moves = useful_freedoms(mechanism) or has_free_slide(mechanism)
     counted = with_count(mechanism, found)
-    if moves or not found:
+    if _moves(mechanism) or not found:
         return counted
     unlocked, dropped = without_weakest(
         trials.assembly, trials.contacts, trials.options, found, mechanism, trials.fasteners
@@ -273,6 +276,11 @@ def _movable(trials: _Trials, seats: Sequence[Inference], trial: _Trial) -> Mech
         if 0 < useful_freedoms(other.mechanism) < useful_freedoms(counted):
             counted = with_note_of_dropped(dropped, with_count(other.mechanism, other.inferences))
     return counted
+
+
+def _moves(mechanism: Mechanism) -> bool:
+    """Tell whether a mechanism has a freedom of use, or a slide whose drive alone is missing."""
+    return bool(useful_freedoms(mechanism)) or has_free_slide(mechanism)
 
 
 def _choices(found: Sequence[Inference]) -> list[Sequence[Inference]]:
