@@ -45,10 +45,12 @@ def without_weakest(
     Inferences that hold parts which nothing else does are weaker than those of bolts and pins: these come first. Those
     without which a part would hang on nothing stay, and so do those without which screws and nuts alone would turn: a
     structure of bolted plates is no mechanism. A pin in a bush, of which nothing else is inferred, is one. What only
-    spins in the `locked` mechanism, which has all inferences, keeps them.
+    spins in the `locked` mechanism, which has all inferences, keeps them; where that has joints, a fastener that turns
+    about itself without an inference has no part in what locks them.
     """
     movable, without_it = None, None
     spinning = {each.name for each in locked.linkage.spinning}
+    jointed = any(joint.freedoms for joint in locked.all_joints)
     droppable = [each for each in reversed(found) if each.evidence.kind not in KEPT]
     for dropping in droppable[:_TRIED]:
         fewer = [each for each in found if each is not dropping]
@@ -60,7 +62,8 @@ def without_weakest(
         other = with_note_of_dropped(dropping, other)
         if useful_freedoms(other) and _drives_another(other, spinning):
             return other, dropping
-        if not spinning and movable is None and any(joint.freedoms for joint in other.all_joints):
+        freed = {each.name for each in other.linkage.spinning}.difference(fasteners) if jointed else other.all_joints
+        if not spinning and movable is None and freed and any(joint.freedoms for joint in other.all_joints):
             movable, without_it = other, dropping
     return movable, without_it
 

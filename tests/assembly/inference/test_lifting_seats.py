@@ -1,4 +1,4 @@
-"""Valves that are drawn on their seats lift where nothing moves else.
+"""Valves that are drawn on their seats lift where nothing moves else; a lock is no reason to let fasteners go.
 
 Each is drawn with a known truth, at a place, a size and in an order at random: these change nothing.
 """
@@ -75,3 +75,19 @@ def test_a_cone_that_turns_in_its_seat_keeps_its_hinge_where_something_moves(see
     cock = part("valve", pin(10.0, -5.0, 30.0), PLUG, handle)
     mechanism = anywhere(assembly(chest(SEAT), cock), seed).mechanism(fixed=["chest"])
     assert [str(each.kind) for each in moving(mechanism)] == ["revolute"]
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_fastener_that_has_no_part_in_a_lock_is_held_still(seed):
+    """Three bars that are a triangle cannot move; a pin in one of them has nothing to do with that."""
+    base = part("base", pin(5.0, 0.0, 10.0), pin(5.0, 0.0, 10.0, (80.0, 0.0)), block((-20, -9, -10), (100, 9, 0)))
+    one = part(
+        "one", ring(5.0, 9.0, 0.0, 10.0), ring(5.0, 9.0, 0.0, 10.0, (40.0, 60.0)), ring(3, 7, 0, 10, (20.0, 30.0))
+    )
+    arm = block((35, 55, 10), (45, 65, 20))
+    other = part("other", ring(5.0, 9.0, 0.0, 10.0, (80.0, 0.0)), pin(5.0, 0.0, 10.0, (40.0, 60.0)), arm)
+    bolt = part("bolt", pin(3.0, -8.0, 18.0, (20.0, 30.0)))
+    mechanism = anywhere(assembly(base, one, other, bolt), seed).mechanism(fixed=["base"])
+    body = owners(mechanism)
+    assert body["bolt"] == body["one"] != body["base"] and not mechanism.mobility().useful
+    assert not any("not inferred" in note for note in mechanism.notes)
