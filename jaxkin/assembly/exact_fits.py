@@ -55,14 +55,19 @@ def _may_be_none(mechanism: Mechanism, joint: Joint, bearings: Collection[str]) 
         return False
     if evidence.kind is EvidenceKind.CONTACT:
         solids = {part.name: part for part in mechanism.solids}
-        return all(
-            each.misfit <= MAX_FIT * min(size((solids[part],)) for part in each.parts)
-            for each in mechanism.contacts[joint.name]
-        )
-    return evidence.kind is EvidenceKind.CLEARANCE and "clearance" in dict(evidence.sizes) and not has_play(evidence)
+        contacts = mechanism.contacts.get(joint.name, ())
+        fits = (each.misfit <= MAX_FIT * min(size((solids[part],)) for part in each.parts) for each in contacts)
+        return bool(contacts) and all(fits)
+    return fits_its_hole(evidence)
 
 
 def has_play(evidence: Evidence | None) -> bool:
     """Tell whether the evidence of a joint is a pin in a wider hole."""
-    sizes = {} if evidence is None or evidence.kind is not EvidenceKind.CLEARANCE else dict(evidence.sizes)
-    return "clearance" in sizes and sizes["clearance"] > MAX_FIT * sizes["radius"]
+    clearance = None if evidence is None else evidence.relative_clearance
+    return clearance is not None and clearance > MAX_FIT
+
+
+def fits_its_hole(evidence: Evidence) -> bool:
+    """Tell whether the evidence of a joint is a pin in a hole that is no wider."""
+    clearance = evidence.relative_clearance
+    return clearance is not None and clearance <= MAX_FIT

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from jaxkin.assembly.exact_fits import MAX_FIT, any_has_play
+from jaxkin.assembly.exact_fits import any_has_play, fits_its_hole
 from jaxkin.assembly.hinge_bores import holes_of
 from jaxkin.assembly.inference.bores import MAX_HOLE_ARC
 from jaxkin.assembly.inference.inference import Inference
@@ -50,11 +50,9 @@ def tight_fits(mechanism: Mechanism, measured: Measured, bearings: Collection[st
 def _is_unkept_fit(joint: Joint) -> bool:
     """Tell whether a joint is a hinge by inference, of a pin without play, which contacts would let slide."""
     evidence = joint.evidence
-    if evidence is None or evidence.kind is not EvidenceKind.CLEARANCE or evidence.doubt is None:
+    if evidence is None or evidence.doubt is None:
         return False
-    sizes = dict(evidence.sizes)
-    fits = "clearance" in sizes and sizes["clearance"] <= MAX_FIT * sizes["radius"]
-    return joint.kind is JointKind.REVOLUTE and fits and evidence.doubt.seen in _UNKEPT
+    return joint.kind is JointKind.REVOLUTE and fits_its_hole(evidence) and evidence.doubt.seen in _UNKEPT
 
 
 def _evidence(joint: Joint) -> Evidence:

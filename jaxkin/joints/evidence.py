@@ -103,6 +103,17 @@ class Evidence:
     """The same in one line, for reports."""
     doubt: Doubt | None = None
 
+    @property
+    def relative_clearance(self) -> float | None:
+        """Clearance of the pin of a joint, over the radius of its hole; None where the evidence is no such pin.
+
+        Slides between walls have a play, and what a pin across holds a clearance, and no radius to compare either with.
+        """
+        sizes = dict(self.sizes)
+        if self.kind is not EvidenceKind.CLEARANCE or not sizes.keys() >= {"clearance", "radius"}:
+            return None
+        return sizes["clearance"] / sizes["radius"]
+
     def __str__(self) -> str:
         return f"{self.kind}: {self.text}" if self.text else str(self.kind)
 
