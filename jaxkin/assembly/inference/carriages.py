@@ -146,13 +146,10 @@ def _runs(wheel: _Wheel, rail: Part) -> list[_Run]:
             continue
         way /= np.linalg.norm(way)
         across = np.column_stack([way, np.cross(plane.normal, way)])
-        corners = face.triangles.reshape(-1, 3) @ across
         lowest = treads[heights <= gap + MAX_CARRIAGE_PLAY * wheel.radius] @ across
-        low, high = (
-            np.maximum(corners.min(axis=0), lowest.min(axis=0)),
-            np.minimum(corners.max(axis=0), lowest.max(axis=0)),
-        )
-        if np.all(high > low):
+        places = face.triangles @ across  # a face may be in two channels, a triangle is not
+        beyond = (places.min(axis=1) >= lowest.max(axis=0)) | (places.max(axis=1) <= lowest.min(axis=0))
+        if not np.all(np.any(beyond, axis=1)):
             found.append(_Run(wheel, plane.normal, gap))
     return found
 

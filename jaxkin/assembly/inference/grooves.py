@@ -1,4 +1,5 @@
-"""Round parts in grooves that are open by half: axles in the floor of a car, wheels in their arches."""
+"""Round parts in grooves that are open by half, as axles in the floor of a car and wheels in their arches are, and
+between the flanges of a channel, as rollers."""
 
 from __future__ import annotations
 
@@ -9,7 +10,13 @@ import numpy as np
 from jaxkin.assembly.inference.axes import shared_length
 from jaxkin.assembly.inference.bores import MAX_HOLE_ARC, NEAR_LENGTH, Bore
 from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.sleeves import is_round_about
+from jaxkin.assembly.inference.walls import MAX_SIDE_PLAY
 from jaxkin.geometry.outline import widest_gap
+
+MIN_CHANNEL = 2.0
+"""Length of both flanges of a channel over the width between them, from which on what is between them travels: nuts and
+spacers fill their pockets."""
 
 
 def in_grooves(known: Known, fastening: Collection[str]) -> set[str]:
@@ -50,3 +57,25 @@ def _is_whole(known: Known, pin: Bore, halves: Sequence[Bore]) -> bool:
     ends = [each.reach(axis) for each in halves]
     beyond = min(low for low, _ in ends) - heights.min(), heights.max() - max(high for _, high in ends)
     return min(beyond) <= NEAR_LENGTH * pin.radius
+
+
+def rollers_in_channels(known: Known, fastening: Collection[str]) -> set[str]:
+    """Find the rollers of the form of a nut: round rings on a stub, which is no fastener, between the flanges of a
+    channel of a third body, with no more play than what slides between walls.
+
+    A nut has room for a wrench about it, and none to travel.
+    """
+    body, result = known.body, set[str]()
+    slotted = {}
+    for each in known.measured.slotted_pins(known.clearance):
+        width = 2 * each.half
+        if 2 * each.clearance <= MAX_SIDE_PLAY * width and each.length >= MIN_CHANNEL * width:
+            slotted.setdefault(each.pin.part, []).append(each)
+    for pair in known.axes:
+        name, stub = pair.other.part, pair.one
+        if pair.virtual or name not in fastening or stub.part in fastening or not is_round_about(known, name, stub):
+            continue
+        third = (each for each in slotted.get(name, ()) if body[each.part] not in (body[name], body[stub.part]))
+        if any(each.pin.on_axis_of(stub) for each in third):
+            result.add(name)
+    return result

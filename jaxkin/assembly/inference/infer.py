@@ -24,7 +24,7 @@ from jaxkin.assembly.inference.fasteners import fasteners, stacks
 from jaxkin.assembly.inference.feathers import feathers
 from jaxkin.assembly.inference.fittings import screwed_fittings
 from jaxkin.assembly.inference.floating import floating
-from jaxkin.assembly.inference.grooves import in_grooves
+from jaxkin.assembly.inference.grooves import in_grooves, rollers_in_channels
 from jaxkin.assembly.inference.heads import is_beside_its_hole, is_countersunk, is_head_on_tube
 from jaxkin.assembly.inference.held import (
     attached_fasteners,
@@ -164,7 +164,8 @@ def _take_hubs_and_find_fasteners(known: Known) -> set[str]:
     axles = hollow_axles(known)
     fastening -= sliding_rods(known, set_in) | (axles - hollow_pins(known, axles)) | driven | barrels(set_in)
     known.blocks = blocks_between_walls(known, fastening)
-    fastening -= rollers(known, fastening) | known.blocks | in_grooves(known, fastening)
+    fastening -= rollers(known, fastening) | rollers_in_channels(known, fastening)
+    fastening -= known.blocks | in_grooves(known, fastening)
     fastening -= {each.screw.part for each in lead_nuts(known)}
     known.take([*squared_hubs(known, fastening), *pressed_on_shoulders(known, fastening)])
     known.take(seated_on_squares(known, fastening))
@@ -242,6 +243,7 @@ def _take_joints_between_bodies(known: Known, fastening: Collection[str]) -> _St
     known.take(floating(known, joined))
     known.take(held_studs(known, joined, fastening))
     known.take([each.inference for each in joined if not each.replaces_slide and each not in turning])
+    known.take(carriages(known))
     known.take(slot_joints(known, joined))
     known.take(loose_slides(known))
     known.take(carriages(known))

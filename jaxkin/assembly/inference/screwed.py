@@ -35,11 +35,13 @@ def screwed_in(known: Known, fastening: Collection[str]) -> list[Inference]:
 
 def screwed_bodies(known: Known, every: Sequence[Stack]) -> list[Inference]:
     """Find bodies with two or more parallel screws, beside each other, that go through nothing else and point at one
-    other body."""
+    other body. Rings on a pin that are in no hole, as nuts and rollers, point at nothing."""
     body = known.body
+    pins = {pair.one.part for pair in known.axes if not pair.virtual}
+    rings = {pair.other.part for pair in known.axes if not pair.virtual} - pins
     pointing: dict[frozenset[str], list[tuple[Stack, float]]] = {}
     for stack in every:
-        if len(stack.held) != 1 or len(stack.fasteners) != 1 or stack.guides:
+        if len(stack.held) != 1 or len(stack.fasteners) != 1 or stack.guides or {*stack.fasteners} & rings:
             continue
         own = {body[part] for part in (*stack.held, *stack.fasteners)}
         found = _pointed_at(known, stack, {part for part in known.names if body[part] in own})

@@ -34,7 +34,8 @@ def slot_joints(known: Known, joined: Sequence[StoppedJoint] = ()) -> list[Infer
     with the walls have it. A pin that does not touch what has the slot has no more play than what nearly touches.
     Bodies with a common axis are left to that, but for pins at the end of their slot. Where hinges along the pin keep
     both bodies level, `joined` or known, it does not slide along its axis either, and in a slot with round ends may
-    have the play of round holes. A screw that clamps what has the slot, for adjusting, guides nothing.
+    have the play of round holes. A screw that clamps what has the slot, for adjusting, guides nothing, nor does the
+    roller of a carriage that slides along the slot.
     """
     body, every = known.body, known.measured.slotted_pins(known.clearance)
     axes = [pair for pair in (*known.axes, *known.tapped) if id(pair) not in known.slot_ends]
@@ -42,7 +43,9 @@ def slot_joints(known: Known, joined: Sequence[StoppedJoint] = ()) -> list[Infer
     found: dict[Pair, list[SlottedPin]] = {}
     for each in every:
         owners = frozenset(body[part] for part in (each.pin.part, each.part))
-        if len(owners) == 2 and owners not in others and not _is_sleeved(known, each, every):
+        if len(owners) < 2 or owners in others or _is_carried(known, each):
+            continue
+        if not _is_sleeved(known, each, every):
             found.setdefault(owners, []).append(each)
     lying: set[Pair] = set()
     for contact in known.contacts if found else ():
@@ -58,6 +61,17 @@ def slot_joints(known: Known, joined: Sequence[StoppedJoint] = ()) -> list[Infer
         if (made := _made(known, pins, owners in lying, joined)) is not None:
             result.append(made)
     return result
+
+
+def _is_carried(known: Known, slotted: SlottedPin) -> bool:
+    """Tell whether a body slides along a slot by what is inferred, and the pin turns in or on it."""
+    body, pin = known.body, slotted.pin
+    slides = [each.joint for each in known.found if each.joint and each.joint.kind is JointKind.PRISMATIC]
+    ways = [(joint, np.cross(joint.frames_1[0][:3, 2], slotted.along)) for joint in slides]
+    along = [{body[part] for part in joint.parts} for joint, tilt in ways if np.linalg.norm(tilt) < ACROSS]
+    carriers = {owner for pair in along if body[slotted.part] in pair for owner in pair} - {body[slotted.part]}
+    on = {part for each in known.axes if pin.part in each.parts and each.one.on_axis_of(pin) for part in each.parts}
+    return any(body[part] in carriers for part in on)
 
 
 def _are_parallel(pins: Sequence[SlottedPin]) -> bool:

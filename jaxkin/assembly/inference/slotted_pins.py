@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.assembly.inference.axes import MAX_CLEARANCE, MAX_OFFSET, MIN_ENGAGED, CommonAxis
-from jaxkin.assembly.inference.bores import MAX_HOLE_ARC, SAME_LENGTH, Bore, merged, shared
+from jaxkin.assembly.inference.bores import MAX_HOLE_ARC, SAME_LENGTH, Bore, merged
 from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.geometry.part import Face, Part
 from jaxkin.geometry.pose import Vector
@@ -35,6 +35,8 @@ class SlottedPin(NamedTuple):
     """Distance of the pin from the middle between the walls."""
     span: tuple[float, float]
     """Where pin and walls are beside each other along the axis of the pin, from its middle."""
+    length: float
+    """Length over which both walls are beside each other along the slot."""
 
     @property
     def clearance(self) -> float:
@@ -140,25 +142,37 @@ def _between(pin: Bore, part: str, walls: _Walls, clearance: float | None) -> li
         if not -SAME_LENGTH * half <= loose <= widest - pin.radius or offset > max(loose, 0.0) + MAX_OFFSET * half:
             continue
         slack = max(loose, 0.0) + MAX_OFFSET * half  # of a pin at the end of its slot
-        span = _beside(pin, walls.normals[one], (walls.faces[one], walls.faces[other]), 2 * half * MIN_SLOT, slack)
-        if span is not None:
-            found.append(SlottedPin(pin, part, walls.normals[one], float(half), float(offset), span))
+        beside = _beside(pin, walls.normals[one], (walls.faces[one], walls.faces[other]), 2 * half * MIN_SLOT, slack)
+        if beside is not None:
+            found.append(SlottedPin(pin, part, walls.normals[one], float(half), float(offset), *beside))
     return found
 
 
 def _beside(
     pin: Bore, normal: Vector, walls: tuple[Face, Face], least: float, slack: float
-) -> tuple[float, float] | None:
-    """Find where along its axis a pin is beside both of two walls, or within `slack` of their ends; None where it is
-    not, or where these are beside each other over less than some length."""
+) -> tuple[tuple[float, float], float] | None:
+    """Find where along its axis a pin is beside both of two walls, or within `slack` of their ends, and the length of
+    these beside each other; None where it is not, or where that is less than some length.
+
+    A wall may be in two lugs, as the flanges of two channels in one plane are, with nothing between them.
+    """
     across = np.column_stack([np.cross(normal, pin.axis), pin.axis])
-    places = [(face.triangles.reshape(-1, 3) - pin.point) @ across for face in walls]
-    low = np.max([each.min(axis=0) for each in places], axis=0)
-    high = np.min([each.max(axis=0) for each in places], axis=0)
-    if not low[0] < slack or not -slack < high[0] or high[0] - low[0] < least:
+    places = [(face.triangles - pin.point) @ across for face in walls]
+    low = np.max([each[..., 0].min() for each in places])
+    high = np.min([each[..., 0].max() for each in places])
+    if not low < slack or not -slack < high or high - low < least:
         return None
-    height = (float(low[1]), float(high[1]))
-    spans = merged(pin.spans)
-    if shared(spans, [height]) <= MIN_ENGAGED * pin.radius:
+    lows, highs = ([end(each[..., 1], axis=1) for each in places] for end in (np.min, np.max))
+    first, second = (merged(zip(*ends, strict=True)) for ends in zip(lows, highs, strict=True))
+    common = [overlap for one in first for two in second for overlap in _overlap(one, two)]
+    engaged = [overlap for one in common for span in merged(pin.spans) for overlap in _overlap(one, span)]
+    if sum(end - start for start, end in engaged) <= MIN_ENGAGED * pin.radius:
         return None
-    return max(height[0], spans[0][0]), min(height[1], spans[-1][1])
+    span = min(start for start, _ in engaged), max(end for _, end in engaged)
+    return span, float(high - low)
+
+
+def _overlap(one: tuple[float, float], other: tuple[float, float]) -> list[tuple[float, float]]:
+    """List what two spans share: one span, or none."""
+    low, high = max(one[0], other[0]), min(one[1], other[1])
+    return [(low, high)] if low < high else []
