@@ -70,7 +70,7 @@ from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.assembly.inference.slides import guided_on_faces, loose_slides
 from jaxkin.assembly.inference.slot_joints import slot_joints
 from jaxkin.assembly.inference.slotted import clamped_on_slots
-from jaxkin.assembly.inference.spacers import spacers
+from jaxkin.assembly.inference.spacers import clamped_standoffs, spacers
 from jaxkin.assembly.inference.spreaders import spreaders
 from jaxkin.assembly.inference.standing import butting_pins, embedded_pins, standing_rods
 from jaxkin.assembly.inference.stopped_joint import StoppedJoint
@@ -151,7 +151,9 @@ def _take_hubs_and_find_fasteners(known: Known) -> set[str]:
     known.take([*collets(known), *self_holding_tapers(known)])
     set_in = sleeves(known)
     driven = driven_sleeves(known, set_in)
-    set_in = [each for each in set_in if each.part not in driven]
+    clamped = clamped_standoffs(known, set_in)
+    known.take([*clamped.values()])
+    set_in = [each for each in set_in if each.part not in driven | clamped.keys()]
     known.take(seated_sleeves(known, set_in))
     bores = [bore for pair in known.axes for bore in (pair.one, pair.other)]
     fastening = fasteners(known.parts, bores, known.bores, known.plugged)

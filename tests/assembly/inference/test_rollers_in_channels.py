@@ -80,7 +80,7 @@ def mast():
     sides, at = (-1, 1), PLACES
 
     def up(side, low, high):
-        return sorted((side * low, side * high))
+        return min(side * low, side * high), max(side * low, side * high)
 
     outer, inner = [], [block((-20, -60, -24), (20, 60, 24))]
     parts = []
@@ -89,8 +89,8 @@ def mast():
         outer += [block((x, -200, low), (x + 5, 200, high)) for x in (15, -20)]
         low, high = up(side, 44, 48)
         outer += [block((-20, -200, low), (20, 200, high))]
-        inner += [pin(7.0, *up(side, 24, 43), each) for each in at]
-        parts += [part(f"roller {side} {k}", ring(7.0, 15.0, *up(side, 31, 43), each)) for k, each in enumerate(at)]
+        inner += [pin(7.0, *up(side, 24, 43), at=each) for each in at]
+        parts += [part(f"roller {side} {k}", ring(7.0, 15.0, *up(side, 31, 43), at=each)) for k, each in enumerate(at)]
         low, high = up(side, 24, 30)
         parts.append(part(f"pad {side}", block((13, -5, low), (19, 5, high))))
     outer += [block((-20, -210, -48), (20, -200, 48)), along_y(ring(3.0, 6.0, -200, -100))]
