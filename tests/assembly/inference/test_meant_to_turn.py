@@ -49,6 +49,24 @@ def test_a_wheel_with_teeth_is_there_to_turn(outline, seed):
     assert (found.useful, found.spinning) == (2, ())
 
 
+def flange(count, radius):
+    """A round plate on the post with a circle of holes."""
+    turned = [2 * np.pi * k / count for k in range(count)]
+    places = [(-40 + 12 * np.cos(turn), 12 * np.sin(turn)) for turn in turned]
+    holes = [ring(radius, 2 * radius, -4, 4, at)[2:3] for at in places]
+    return part("flange", ring(4.0, 16.0, -5, 5, at=(-40, 0)), *holes)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(
+    ("count", "radius", "turns"), [(4, 1.0, True), (4, 2.6, False), (2, 1.0, False), (16, 1.0, False)]
+)
+def test_a_flange_with_a_circle_of_empty_holes_for_screws_is_there_to_turn(count, radius, turns, seed):
+    """Wide holes make a wheel lighter, many cool a brake, and two are for a pin wrench."""
+    found = mobility(LEVER, flange(count, radius), seed=seed)
+    assert (found.useful, found.spinning) == (1 + turns, () if turns else ("flange",))
+
+
 def test_a_ring_that_fits_its_post_exactly_only_spins_where_nothing_else_moves():
     """It may as well be a nut: nothing drawn says that it turns."""
     found = mobility(part("wheel", ring(4.0, 16.0, -5, 5, at=(-40, 0))))
