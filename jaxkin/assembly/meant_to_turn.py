@@ -87,17 +87,23 @@ def _is_kept_with_play(hinge: Joint) -> bool:
 
 
 def _is_flange(part: str, point: Vector, axis: Vector, measured: Measured) -> bool:
-    """Tell whether the holes of a part beside an axis are one circle of equal ones around it, as for screws.
+    """Tell whether the holes of a part beside an axis are one circle of equal ones, as for screws, around a journal of
+    its own, on which it turns in another part.
 
-    Discs of brakes have more holes, and wheels have wider ones. Screws that are drawn make it one body with others.
+    Discs of brakes have more holes, wheels wider ones, and sieves no journal. Screws that are drawn make it one body
+    with others.
     """
+    inner = [pair.one for pair in measured.axes(None) if pair.one.part == part and not pair.virtual]
     holes = [each for each in measured.bores[part] if each.hole and np.linalg.norm(np.cross(each.axis, axis)) < ACROSS]
     offsets = np.array([each.point - point for each in holes]).reshape(-1, 3)
     offsets -= np.outer(offsets @ axis, axis)
     away, radii = np.linalg.norm(offsets, axis=1), np.array([each.radius for each in holes])
     beside = away > radii
     away, radii, offsets = away[beside], radii[beside], offsets[beside]
-    if not FEWEST_HOLES <= len(away) <= MOST_HOLES:
+    journals = [
+        each for each in inner if np.linalg.norm(np.cross(each.point - point, axis)) <= NEAR_LENGTH * each.radius
+    ]
+    if not FEWEST_HOLES <= len(away) <= MOST_HOLES or not any(each.radius < away.min() for each in journals):
         return False
     side = offsets[0] / away[0]
     gap = widest_gap(np.arctan2(offsets @ np.cross(axis, side), offsets @ side))

@@ -36,15 +36,16 @@ def seats_of(mechanism: Mechanism, inexact: bool, bearings: Collection[str]) -> 
     `inexact`: where exact contacts do not determine all of it. What is in one of the `bearings` turns there.
 
     Only where something moves: of a mechanism that is locked nothing is known to be of no use. Seats on both sides of a
-    body that would hold two others to each other which move by a joint, or over a roller between them, are not both
-    taken, nor a seat of a body that slides in a third one on a body that turns there. A carriage on a rail is a guide,
-    though nothing that is drawn moves with it.
+    body that would hold two others to each other which move by a joint, or, where they are flat, over a roller, are not
+    both taken, nor a seat of a body that slides in a third one on a body that turns there. A carriage on a rail is a
+    guide, though nothing that is drawn moves with it.
     """
     if not useful_freedoms(mechanism):
         return []
     idle = {*mechanism.mobility().idle}
     owner = body_of_parts(mechanism.bodies)
-    useful = _moving_pairs(mechanism, idle, owner)
+    useful = [joint.parts for joint in mechanism.all_joints if {*joint.full_names} - idle]
+    over_rollers = _over_rollers(mechanism, idle, owner)
     result = []
     for joint in mechanism.all_joints:
         flat = joint.kind in (JointKind.PRISMATIC, JointKind.PLANAR)
@@ -59,7 +60,8 @@ def seats_of(mechanism: Mechanism, inexact: bool, bearings: Collection[str]) -> 
             continue
         one, other = (owner[part] for part in joint.parts)
         joined = {part: one if body == other else body for part, body in owner.items()}
-        apart = all(joined[first] != joined[second] or owner[first] == owner[second] for first, second in useful)
+        moving = [*useful, *over_rollers] if flat else useful
+        apart = all(joined[first] != joined[second] or owner[first] == owner[second] for first, second in moving)
         if apart and not locks_slide(mechanism, joint, owner):
             rest = "turn, as of a thread," if screwed else "slide"
             text = f"faces hold {joint.parts[0]!r} to {joint.parts[1]!r} but for a {rest} that moves nothing else"
@@ -68,9 +70,9 @@ def seats_of(mechanism: Mechanism, inexact: bool, bearings: Collection[str]) -> 
     return result
 
 
-def _moving_pairs(mechanism: Mechanism, idle: Collection[str], owner: Mapping[str, str]) -> list[tuple[str, str]]:
-    """List the pairs of bodies that move by a joint, and those with a roller between them that moves on one, and only
-    turns or slides idly on the pin of the other."""
+def _over_rollers(mechanism: Mechanism, idle: Collection[str], owner: Mapping[str, str]) -> list[tuple[str, str]]:
+    """List the pairs of bodies with a roller between them, which moves on the one and only turns or slides idly on the
+    pin of the other."""
     moving: list[tuple[str, str]] = []
     on: dict[str, list[str]] = {}
     for joint in mechanism.all_joints:
@@ -80,7 +82,7 @@ def _moving_pairs(mechanism: Mechanism, idle: Collection[str], owner: Mapping[st
         elif joint.kind in (JointKind.REVOLUTE, JointKind.CYLINDRICAL):
             on.setdefault(one, []).append(other)
             on.setdefault(other, []).append(one)
-    return [*moving, *((one, pin) for one, roller in moving for pin in on.get(roller, ()) if pin != one)]
+    return [(one, pin) for one, roller in moving for pin in on.get(roller, ()) if pin != one]
 
 
 def is_on_one_plane(mechanism: Mechanism, seat: Inference) -> bool:

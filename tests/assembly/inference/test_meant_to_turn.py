@@ -49,21 +49,26 @@ def test_a_wheel_with_teeth_is_there_to_turn(outline, seed):
     assert (found.useful, found.spinning) == (2, ())
 
 
-def flange(count, radius):
-    """A round plate on the post with a circle of holes."""
-    turned = [2 * np.pi * k / count for k in range(count)]
-    places = [(-40 + 12 * np.cos(turn), 12 * np.sin(turn)) for turn in turned]
-    holes = [ring(radius, 2 * radius, -4, 4, at)[2:3] for at in places]
-    return part("flange", ring(4.0, 16.0, -5, 5, at=(-40, 0)), *holes)
-
-
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(
-    ("count", "radius", "turns"), [(4, 1.0, True), (4, 2.6, False), (2, 1.0, False), (16, 1.0, False)]
+    ("count", "radius", "journal", "turns"),
+    [(4, 1.0, 5.2, True), (4, 2.6, 5.2, False), (2, 1.0, 5.2, False), (16, 1.0, 5.2, False), (4, 1.0, 16.0, False)],
 )
-def test_a_flange_with_a_circle_of_empty_holes_for_screws_is_there_to_turn(count, radius, turns, seed):
-    """Wide holes make a wheel lighter, many cool a brake, and two are for a pin wrench."""
-    found = mobility(LEVER, flange(count, radius), seed=seed)
+def test_a_flange_with_a_circle_of_holes_for_screws_around_its_journal_is_there_to_turn(
+    count, radius, journal, turns, seed
+):
+    """Wide holes make a wheel lighter, many cool a brake, two are for a pin wrench, and a sieve is in its rim."""
+    turned = [2 * np.pi * k / count for k in range(count)]
+    holes = [ring(radius, 2 * radius, 2, 6, (40 + 12 * np.cos(turn), 40 + 12 * np.sin(turn)))[2:3] for turn in turned]
+    rim = part("rim", ring(16.0, 20.0, 2, 6, at=(40, 40))[2:]) if journal > 12 else None
+    shaft = [pin(journal, -12, 2, at=(40, 40)), pin(9.0, -12, -2, at=(40, 40))] if rim is None else []
+    flange = part("flange", *shaft, pin(16.0, 2, 6, at=(40, 40)), *holes)
+    plate = part(
+        "plate",
+        *([(face.surface, face.triangles) for each in (PLATE, *([rim] if rim else ())) for face in each.faces],),
+    )
+    drawn = anywhere(assembly(plate, COLLARS, POST, LEVER, flange), seed)
+    found = drawn.mechanism(fixed=["plate", "collars", "post"]).mobility()
     assert (found.useful, found.spinning) == (1 + turns, () if turns else ("flange",))
 
 
