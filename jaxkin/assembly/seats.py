@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Set
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -38,7 +38,8 @@ def seats_of(mechanism: Mechanism, inexact: bool, bearings: Collection[str]) -> 
     Only where something moves: of a mechanism that is locked nothing is known to be of no use. Seats on both sides of a
     body that would hold two others to each other which move by a joint, or, where they are flat, over a roller, are not
     both taken, nor a seat of a body that slides in a third one on a body that turns there. A carriage on a rail is a
-    guide, though nothing that is drawn moves with it.
+    guide, though nothing that is drawn moves with it. A screw or a nut that drives a slide turns in what is fixed; a
+    pin does not, where nothing slides along it.
     """
     if not useful_freedoms(mechanism):
         return []
@@ -49,8 +50,10 @@ def seats_of(mechanism: Mechanism, inexact: bool, bearings: Collection[str]) -> 
     result = []
     for joint in mechanism.all_joints:
         flat = joint.kind in (JointKind.PRISMATIC, JointKind.PLANAR)
-        held = {owner[part] for part in joint.parts} & {owner.get(part, part) for part in mechanism.fixed}
-        turning = inexact and joint.kind is JointKind.REVOLUTE and not held  # a nut that drives turns in what is fixed
+        ground = {owner.get(part, part) for part in mechanism.fixed}
+        turning = inexact and joint.kind is JointKind.REVOLUTE
+        if turning and {owner[part] for part in joint.parts} & ground:
+            turning = _carries_no_slide(mechanism, joint, owner, ground)
         screwed = turning and not {*joint.parts} & {*bearings} and _is_in_line(mechanism, joint, owner)
         if joint.kind is JointKind.FIXED and joint.name in mechanism.contacts and joint.evidence:
             result.append(Inference(joint.parts, joint.evidence))
@@ -118,6 +121,25 @@ def _is_in_line(mechanism: Mechanism, joint: Joint, owner: Mapping[str, str]) ->
         if others and all(_is_about(each, point, axis, near) for each in others):
             return True
     return False
+
+
+def _carries_no_slide(mechanism: Mechanism, joint: Joint, owner: Mapping[str, str], ground: Set[str]) -> bool:
+    """Tell whether all that is on a body that turns in the ground turns about the same axis on the ground, or moves
+    across it, as what is on a pin between the cheeks of its fork does. A screw or a nut that drives something moves it
+    along its axis."""
+    axis = np.asarray(joint.frames_1, float)[0, :3, 2]
+    pairs = [(each, {owner[part] for part in each.parts}) for each in mechanism.all_joints if each is not joint]
+    turning = {owner[part] for part in joint.parts} - ground
+    on = {body for _, pair in pairs if pair & turning for body in pair - turning}
+    across = {
+        body
+        for each, pair in pairs
+        if each.kind in (JointKind.PLANAR, JointKind.REVOLUTE)
+        and np.linalg.norm(np.cross(np.asarray(each.frames_1, float)[0, :3, 2], axis)) < NEAR_ANGLE
+        and pair & ground
+        for body in pair - ground
+    }
+    return bool(on) and on <= across
 
 
 def _is_about(joint: Joint, point: Vector, axis: Vector, near: float) -> bool:
