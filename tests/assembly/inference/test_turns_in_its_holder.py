@@ -1,0 +1,57 @@
+"""Parts that only one body holds: wheels in chambers and hubs on pins, which turn there, gland nuts, and shims.
+
+Each is drawn with a known truth, at a place, a size and in an order at random: these change nothing.
+"""
+
+import pytest
+
+from assembly.polygons import prism, teeth
+from reference.round_parts import SEEDS, anywhere, assembly, block, kind_of, owners, part, pin, ring
+
+PIVOT = [pin(4.0, 0, 20, (150.0, 0.0)), pin(9.0, -10, 0, (150.0, 0.0))]
+LEVER = part("lever", ring(4.1, 9.0, 0, 10, (150.0, 0.0)), block((158, -3, 0), (190, 3, 10)))
+"""Something that moves: where nothing can, inferences are left out until something does."""
+
+
+def read(seed, fixed, *parts, **words):
+    mechanism = anywhere(assembly(LEVER, *parts), seed).mechanism(fixed=fixed, **words)
+    return owners(mechanism), mechanism
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(
+    ("rim", "chamber", "turns"),
+    [
+        (prism(teeth(9, 3.0), 0, 25), (0, 25), True),
+        (pin(16.5, 0, 25), (0, 25), True),
+        (pin(9.5, 0, 25), (0, 25), True),
+        (pin(9.5, 0, 25), (8, 16), False),
+        (pin(9.5, 0, 25), None, False),
+    ],
+    ids=["wheel", "close rim", "collar", "pillar through a plate", "pillar"],
+)
+def test_what_is_in_a_chamber_between_two_covers_that_fit_it_turns(rim, chamber, turns, seed):
+    """A pillar between two plates has no bore about all of it, or none at all."""
+    body = part("body", block((40, -30, 0), (60, 30, 25)), *([ring(17.25, 30.0, *chamber)] if chamber else []), *PIVOT)
+    covers = [part(f"cover {k}", ring(8.0, 30.0, low, low + 9)) for k, low in enumerate((-9, 25))]
+    wheel = part("wheel", rim, pin(8.0, -7, 0), pin(8.0, 25, 32))
+    of, mechanism = read(seed, ["body", "cover 0", "cover 1"], body, *covers, wheel)
+    assert (of["wheel"] != of["body"]) == turns
+    assert not turns or kind_of(mechanism, "wheel", "body") == "revolute"
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(("washer", "gap", "turns"), [(True, 1.0, True), (True, 0.0, False), (False, 1.0, False)])
+def test_a_hub_that_a_washer_keeps_on_its_pin_with_play_turns(washer, gap, turns, seed):
+    """The screw clamps the washer on the end of the pin; without the play it clamps the hub as well, and a ring on the
+    same thread is a lock nut, wherever it stands."""
+    top = 68 + gap
+    walls = ring(6.0, 10.0, 40, top)[2:3]
+    spindle = part("spindle", pin(34.0, 0, 50), pin(16.0, 50, top if washer else 90), walls if washer else [], *PIVOT)
+    cup = part("cup", ring(16.0, 46.0, 50, 68))
+    held = [part("washer", ring(6.0, 24.0, top, top + 3)), part("screw", pin(6.0, 45, top + 3), pin(11.0, top + 3, 80))]
+    held = held if washer else [part("nut", ring(16.0, 24.0, top, top + 10))]
+    of, mechanism = read(seed, ["spindle"], spindle, cup, *held)
+    assert all(of[each.name] == of["spindle"] for each in held)
+    assert (of["cup"] != of["spindle"]) == turns
+    assert not turns or kind_of(mechanism, "cup", "spindle") == "revolute"
