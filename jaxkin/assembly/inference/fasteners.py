@@ -11,6 +11,7 @@ import numpy as np
 from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.bores import SAME_ANGLE, SAME_LENGTH, Bore, merged, shared
 from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.sleeves import SAME_FIT
 from jaxkin.geometry.outline import roundness
 from jaxkin.geometry.part import Part
 from jaxkin.joints.evidence import Evidence, EvidenceKind
@@ -138,12 +139,14 @@ def stacks(
     touching: Collection[frozenset[str]],
     order: Mapping[str, int],
 ) -> list[Stack]:
-    """Find the stacks of an assembly; `touching` are the pairs of parts with contacts."""
+    """Find the stacks of an assembly; `touching` are the pairs of parts with contacts. A gland nut, through which a
+    shaft passes, is in no stack with that."""
     import networkx as nx  # here, as it takes as long to import as half of JAX
 
     across = [pair for pair in found if is_cotter(pair, found, fastening)]
     found = [pair for pair in found if not pair.virtual or {*pair.parts} <= {*fastening}]
-    found = [pair for pair in found if pair not in across]
+    glands = [pair for pair in found if _is_passed(pair, found, fastening, touching)]
+    found = [pair for pair in found if pair not in across and pair not in glands]
     graph = nx.Graph(pair.parts for pair in found if {*pair.parts} <= {*fastening})
     graph.add_nodes_from(part for pair in found for part in pair.parts if part in fastening)
     result = []
@@ -164,6 +167,20 @@ def stacks(
     alone = {pair.one.part: pair for pair in across if not any(pair.one.part in each.fasteners for each in result)}
     result += [Stack((name,), (pair.other.part,), pair.one, guides=False) for name, pair in alone.items()]
     return sorted(result, key=lambda stack: order[stack.fasteners[0]])
+
+
+def _is_passed(
+    pair: CommonAxis, found: Sequence[CommonAxis], fastening: Collection[str], touching: Collection[frozenset[str]]
+) -> bool:
+    """Tell whether a pin only passes through a fastener, with play and without touching it, as a shaft through a gland
+    nut: that fits what is no fastener on the same axis, as the neck of a cover, and holds on to it."""
+    if pair.virtual or not {*pair.parts} <= {*fastening} or frozenset(pair.parts) in touching:
+        return False
+    ring = pair.other.part
+    others = [each for each in found if not each.virtual and ring in each.parts and not {*each.parts} <= {*fastening}]
+    others = [each for each in others if each.one.on_axis_of(pair.other)]
+    loose = pair.clearance > SAME_FIT * pair.other.radius
+    return loose and any(abs(each.clearance) <= SAME_FIT * each.other.radius for each in others)
 
 
 def is_cotter(pair: CommonAxis, found: Sequence[CommonAxis], fastening: Collection[str]) -> bool:

@@ -55,3 +55,18 @@ def test_a_hub_that_a_washer_keeps_on_its_pin_with_play_turns(washer, gap, turns
     assert all(of[each.name] == of["spindle"] for each in held)
     assert (of["cup"] != of["spindle"]) == turns
     assert not turns or kind_of(mechanism, "cup", "spindle") == "revolute"
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("touching", [False, True])
+def test_a_nut_through_which_a_shaft_passes_is_on_the_neck_that_it_fits(touching, seed):
+    """One that lies on a collar of the shaft may go with it."""
+    cover = part("cover", ring(8.0, 16.0, 0, 22), ring(8.0, 40.0, -9, 0), *PIVOT)
+    collar = [pin(10.0, 26, 30)] if touching else []
+    shaft = part("shaft", pin(8.0, -30, 80), pin(6.0, 80, 95), *collar)
+    gland = part("gland nut", ring(16.0, 20.0, 6, 22), ring(8.5, 20.0, 22, 26))
+    wheel = part("wheel", ring(8.0, 30.0, 60, 80), block((-4, 29, 60), (4, 60, 80)))
+    nut = [part("washer", ring(6.0, 12.0, 80, 82)), part("nut", ring(6.0, 11.0, 82, 92))]
+    of, _ = read(seed, ["cover"], cover, shaft, gland, wheel, *nut, rigid=[["shaft", "wheel"]])
+    assert of["shaft"] != of["cover"] and of["nut"] == of["shaft"]
+    assert of["gland nut"] == of["shaft" if touching else "cover"]
