@@ -55,6 +55,7 @@ from jaxkin.assembly.inference.rod_end_bolts import bolted_balls
 from jaxkin.assembly.inference.screwed import screwed_bodies, screwed_in
 from jaxkin.assembly.inference.set_on import set_on_pins
 from jaxkin.assembly.inference.set_screws import clamped_hubs
+from jaxkin.assembly.inference.shims import shims
 from jaxkin.assembly.inference.shoes import blocks_between_walls, shoes
 from jaxkin.assembly.inference.shouldered import pressed_on_shoulders
 from jaxkin.assembly.inference.sleeves import (
@@ -212,6 +213,7 @@ def _take_what_fasteners_hold(known: Known, fastening: Collection[str]) -> None:
     known.take([*empty_nuts(known), *screwed_on_shafts(known)])
     known.take([*screwed_bodies(known, every), *half_screwed(known, every)])
     known.take(clamped_by_one_screw(known, every))
+    known.take(shims(known, every))
     known.take(clamped_on_slots(known, every))
     known.take([*clamped_halves(known), *u_bolts(known)])
 

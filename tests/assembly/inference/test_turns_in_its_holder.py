@@ -70,3 +70,31 @@ def test_a_nut_through_which_a_shaft_passes_is_on_the_neck_that_it_fits(touching
     of, _ = read(seed, ["cover"], cover, shaft, gland, wheel, *nut, rigid=[["shaft", "wheel"]])
     assert of["shaft"] != of["cover"] and of["nut"] == of["shaft"]
     assert of["gland nut"] == of["shaft" if touching else "cover"]
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(
+    ("out", "fork", "clamped"),
+    [(15, False, True), (60, False, False), (15, True, False), (None, False, False)],
+    ids=["shim", "lever", "eye in a fork", "roller"],
+)
+def test_a_plate_between_two_parts_that_a_bolt_draws_together_is_clamped(out, fork, clamped, seed):
+    """Not a lever that stands out, nor what is between the cheeks of one part, or may roll there."""
+    spots = [(-25.0, 0.0), (25.0, 0.0)]
+
+    def hole(low, high, at):
+        return ring(4.0, 9.0, low, high, at)[2:3]
+
+    def lug(low):
+        return [block((-40, -15, low), (40, 15, low + 10)), *(hole(low, low + 10, at) for at in spots)]
+
+    lugs = [part("one", *lug(0), *lug(15), *PIVOT)] if fork else [part("one", *lug(0), *PIVOT), part("other", *lug(15))]
+    parts = []
+    for k, at in enumerate(spots):
+        plate = [block((at[0] - 12, -15, 10), (at[0] + 12, out, 15)), hole(10, 15, at)] if out else []
+        parts.append(part(f"shim {k}", *plate or [ring(4.0, 14.0, 10, 15, at)]))
+        parts.append(part(f"bolt {k}", pin(4.0, 0, 35, at), pin(8.0, -8, 0, at)))
+        parts.append(part(f"nut {k}", ring(4.0, 8.0, 25, 32, at)))
+    of, _ = read(seed, ["one"], *lugs, *parts)
+    assert all(of[f"{name} {k}"] == of["one"] for name in ("bolt", "nut") for k in (0, 1))
+    assert [of[f"shim {k}"] == of["one"] for k in (0, 1)] == [clamped] * 2
