@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from jaxkin.assembly.guides import is_guide
-from jaxkin.assembly.inference.bores import NEAR_ANGLE
+from jaxkin.assembly.inference.bores import NEAR_ANGLE, bores
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.geometry.part import size
-from jaxkin.geometry.pose import Vector
+from jaxkin.geometry.pose import Transform, Vector
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
@@ -38,8 +38,8 @@ def seats_of(mechanism: Mechanism, inexact: bool, bearings: Collection[str]) -> 
     Only where something moves: of a mechanism that is locked nothing is known to be of no use. Seats on both sides of a
     body that would hold two others to each other which move by a joint, or, where they are flat, over a roller, are not
     both taken, nor a seat of a body that slides in a third one on a body that turns there. A carriage on a rail is a
-    guide, though nothing that is drawn moves with it. A screw or a nut that drives a slide turns in what is fixed; a
-    pin does not, where nothing slides along it.
+    guide, though nothing that is drawn moves with it. What drives turns in what is fixed, a pin between the cheeks of a
+    fork does not.
     """
     if not useful_freedoms(mechanism):
         return []
@@ -53,7 +53,7 @@ def seats_of(mechanism: Mechanism, inexact: bool, bearings: Collection[str]) -> 
         ground = {owner.get(part, part) for part in mechanism.fixed}
         turning = inexact and joint.kind is JointKind.REVOLUTE
         if turning and {owner[part] for part in joint.parts} & ground:
-            turning = _carries_no_slide(mechanism, joint, owner, ground)
+            turning = _is_pin_of_fork(mechanism, joint, owner, ground)
         screwed = turning and not {*joint.parts} & {*bearings} and _is_in_line(mechanism, joint, owner)
         if joint.kind is JointKind.FIXED and joint.name in mechanism.contacts and joint.evidence:
             result.append(Inference(joint.parts, joint.evidence))
@@ -123,11 +123,13 @@ def _is_in_line(mechanism: Mechanism, joint: Joint, owner: Mapping[str, str]) ->
     return False
 
 
-def _carries_no_slide(mechanism: Mechanism, joint: Joint, owner: Mapping[str, str], ground: Set[str]) -> bool:
-    """Tell whether all that is on a body that turns in the ground turns about the same axis on the ground, or moves
-    across it, as what is on a pin between the cheeks of its fork does. A screw or a nut that drives something moves it
-    along its axis."""
-    axis = np.asarray(joint.frames_1, float)[0, :3, 2]
+def _is_pin_of_fork(mechanism: Mechanism, joint: Joint, owner: Mapping[str, str], ground: Set[str]) -> bool:
+    """Tell whether all that is on a body that turns in the ground is between holes of the ground for it, and turns
+    there about the same axis, or moves across it, as what is on a pin between the cheeks of its fork does.
+
+    A screw or a nut that drives something moves it along its axis, and a shaft carries its crank beside its bearings.
+    """
+    frame = np.asarray(joint.frames_1, float)[0]
     pairs = [(each, {owner[part] for part in each.parts}) for each in mechanism.all_joints if each is not joint]
     turning = {owner[part] for part in joint.parts} - ground
     on = {body for _, pair in pairs if pair & turning for body in pair - turning}
@@ -135,11 +137,29 @@ def _carries_no_slide(mechanism: Mechanism, joint: Joint, owner: Mapping[str, st
         body
         for each, pair in pairs
         if each.kind in (JointKind.PLANAR, JointKind.REVOLUTE)
-        and np.linalg.norm(np.cross(np.asarray(each.frames_1, float)[0, :3, 2], axis)) < NEAR_ANGLE
+        and np.linalg.norm(np.cross(np.asarray(each.frames_1, float)[0, :3, 2], frame[:3, 2])) < NEAR_ANGLE
         and pair & ground
         for body in pair - ground
     }
+    cheeks = _holes(mechanism, ground, owner, frame)
+    near = NEAR * size(mechanism.solids)
+    for body in on & across:
+        ends = [end for span in _holes(mechanism, {body}, owner, frame) for end in span]
+        before = any(end <= min(ends, default=-np.inf) + near for _, end in cheeks)
+        if not (before and any(start >= max(ends) - near for start, _ in cheeks)):
+            return False
     return bool(on) and on <= across
+
+
+def _holes(
+    mechanism: Mechanism, bodies: Set[str], owner: Mapping[str, str], frame: Transform
+) -> list[tuple[float, float]]:
+    """Find where the holes of some bodies on an axis are along it, the z axis of `frame`."""
+    axis, near = frame[:3, 2], NEAR * size(mechanism.solids)
+    own = [bore for part in mechanism.solids if owner.get(part.name, part.name) in bodies for bore in bores(part)]
+    own = [bore for bore in own if bore.hole and np.linalg.norm(np.cross(bore.axis, axis)) < NEAR_ANGLE]
+    own = [bore for bore in own if np.linalg.norm(np.cross(bore.point - frame[:3, 3], axis)) <= near]
+    return [span for bore in own for span in bore.spans_along(axis)]
 
 
 def _is_about(joint: Joint, point: Vector, axis: Vector, near: float) -> bool:
