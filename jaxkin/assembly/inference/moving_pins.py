@@ -118,7 +118,8 @@ def _is_retained(known: Known, stack: Stack) -> bool:
         )
         room = play(own, [*shoulder, *end], hole.radius)
         captive = room is not None and NEAR_LENGTH * hole.radius < room <= MAX_AXIAL_PLAY * hole.radius
-        if captive and play(own, shoulder, hole.radius) is None:
+        # by both together: a nut in a window of what lies there is none
+        if captive and all(play(own, alone, hole.radius) is None for alone in (shoulder, end)):
             return True
     return False
 
