@@ -30,6 +30,11 @@ def useful_freedoms(mechanism: Mechanism) -> int:
     return 0 if opening(mechanism.linkage, mechanism.unit) is not None else mechanism.mobility().useful
 
 
+def not_idle(mechanism: Mechanism) -> int:
+    """Count the freedoms that are not idle, those of parts that only spin included; 0 where none is of use."""
+    return useful_freedoms(mechanism) and mechanism.mobility().useful + mechanism.mobility().spins
+
+
 def seats_of(mechanism: Mechanism, inexact: bool, bearings: Collection[str]) -> list[Inference]:
     """Find bodies between which faces leave slides that move nothing else: a bracket on a step, a plate between two
     cheeks; and rods that are set into each other as a rod end into its rod, which leave a turn, where the assembly is
