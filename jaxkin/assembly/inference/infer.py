@@ -212,7 +212,9 @@ def _take_what_fasteners_hold(known: Known, fastening: Collection[str]) -> None:
     known.take(pressed_bars(known, fastening))
     known.take([*empty_nuts(known), *screwed_on_shafts(known)])
     known.take([*screwed_bodies(known, every), *half_screwed(known, every)])
-    known.take(clamped_by_one_screw(known, every))
+    if known.take(clamped_by_one_screw(known, every)):  # patterns of what these are one body with
+        while known.take(bolted_bodies(known, every)):
+            pass
     known.take(shims(known, every))
     known.take(clamped_on_slots(known, every))
     known.take([*clamped_halves(known), *u_bolts(known)])

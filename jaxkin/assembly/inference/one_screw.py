@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis
+from jaxkin.assembly.inference.bores import SAME_LENGTH, Bore
 from jaxkin.assembly.inference.fasteners import Stack, beside
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
@@ -18,6 +19,9 @@ from jaxkin.joints.evidence import Evidence, EvidenceKind
 THROUGH = 0.047
 """Clearance over the radius of a hole that a screw goes through, at least: M3 to M10 have 0.09 to 0.12 in the medium
 series of ISO 273, and 0.048 to 0.07 in the fine one; hinges on screws have less."""
+
+CORE = 16.0
+"""Length of the hole of a profile, from end to end of it, over its radius, at least: no eye of a lever is as long."""
 
 
 class _Clamped(NamedTuple):
@@ -43,7 +47,8 @@ def clamped_by_one_screw(known: Known, every: Sequence[Stack]) -> list[Inference
     faces, as that of an adjusting screw: the part cannot turn, and the head keeps it from sliding off. A round part,
     as the washer at the end of a shaft, may lie on a hub that is one body with the shaft, and no washer of the screw.
     A bar with such screws into several bodies is a link, which turns on them; so are levers, and leaves on two screws.
-    A pin with a flag under a screw, itself in a hole of what the screw is tight in, turns on neither.
+    A pin with a flag under a screw, itself in a hole of what the screw is tight in, turns on neither, nor does a bar on
+    end, with the screw in the hole along its middle, as in the core of a profile.
     Where nothing of that is drawn, either may be meant: the text says how to have the hinge.
     """
     body = known.body
@@ -133,7 +138,8 @@ def _under_head(known: Known, stack: Stack, body: Mapping[str, str]) -> list[_Cl
                 )
                 if flat or _beside(known, part, host, inner, body):
                     why = f"{screw!r} is tight in {host!r}, and its head lies on {part!r}, through which it goes"
-                    result.append(_Clamped(part, host, pair, inner, () if flag else (part,), why))
+                    turning = () if flag or _is_core(known, inner.other) else (part,)
+                    result.append(_Clamped(part, host, pair, inner, turning, why))
     return result
 
 
@@ -174,6 +180,14 @@ def _is_flag(known: Known, part: str, host: str, inner: CommonAxis) -> bool:
     """Tell whether a part is a pin in a hole of the host of a screw, beside the screw."""
     pins = (pair for pair in known.axes if pair.parts == (part, host) and not pair.virtual)
     return any(beside(pair.one, inner.one) for pair in pins)
+
+
+def _is_core(known: Known, hole: Bore) -> bool:
+    """Tell whether a hole goes through a bar from end to end, many times as long as wide."""
+    low, high = np.sort(hole.reach(hole.axis))
+    ends = known.solids[hole.part].outermost @ hole.axis
+    slack = SAME_LENGTH * hole.radius
+    return bool(high - low >= CORE * hole.radius and low <= ends.min() + slack and high >= ends.max() - slack)
 
 
 def _beside(known: Known, one: str, other: str, inner: CommonAxis, body: Mapping[str, str]) -> bool:

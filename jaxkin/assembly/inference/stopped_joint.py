@@ -43,7 +43,7 @@ def joint_about(
     sizes = [("radius", hole.radius), ("clearance", pair.clearance), ("offset", pair.offset), ("tilt", pair.tilt)]
     sizes += [] if free is None else [("play", free)]
     if pair.virtual:
-        kind, text = EvidenceKind.VIRTUAL_PIN, f"equal bores of radius {hole.radius:.4g} without a pin"
+        kind, text = EvidenceKind.VIRTUAL_PIN, f"{_bores_told(pair)} without a pin"
     else:
         how = "a clearance" if pair.clearance >= 0 else "an interference"
         fit = "fits" if exact else f"has {how} of {abs(pair.clearance):.2g}{offset_told(pair.offset, hole.radius)}"
@@ -54,6 +54,12 @@ def joint_about(
     faced = stop is Stop.FACES or (stop is Stop.SHORT and room is not None)
     replaces = exact or not (faced or stop is Stop.NONE)
     return StoppedJoint(Inference.of(joint, evidence), stop, replaces)
+
+
+def _bores_told(pair: CommonAxis) -> str:
+    """Name two bores with nothing in them by their radii, which may differ as those of a screw that is not drawn."""
+    one, other = f"{pair.one.radius:.4g}", f"{pair.other.radius:.4g}"
+    return f"equal bores of radius {other}" if one == other else f"bores of radius {one} and {other}"
 
 
 def _told(stop: Stop, free: float | None, room: float | None) -> str:

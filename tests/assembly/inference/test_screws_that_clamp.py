@@ -106,3 +106,18 @@ def test_a_hole_across_a_pin_is_that_of_a_cotter_and_one_beside_it_that_of_a_fla
     found = common_axes([bore for own in every.values() for bore in own])
     on_axes = [bore for pair in found for bore in (pair.one, pair.other)]
     assert ("headed" in fasteners((headed, plate), on_axes, every)) == is_one
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_screws_in_the_cores_of_bars_on_end_clamp_what_lies_on_these(seed):
+    """Three bars with a hole from end to end under one plate, each with a screw: no link between them, as it is on
+    eyes. The bars stand over wider holes of the base, whose screws are not drawn."""
+    spots = [(0.0, 0.0), (50.0, 0.0), (0.0, 40.0)]
+    plate = part("plate", *(ring(2.75, 9, 0, 6, at) for at in spots), block((9, -4, 0), (41, 4, 6)))
+    bars = [part(f"bar {k}", ring(2.5, 8, -60, 0, at)) for k, at in enumerate(spots)]
+    screws = [screwed(f"screw {k}", at) for k, at in enumerate(spots)]
+    holes = [ring(2.75, 9, -69, -60, at) for at in spots]
+    base = part("base", *holes, block((50, 50, -90), (70, 70, -80)), pin(4.0, -80, 0, (60.0, 60.0)))
+    lever = part("lever", ring(4.1, 9.0, -70, -60, (60.0, 60.0)), block((68, 57, -70), (100, 63, -60)))
+    body, _ = of(assembly(base, plate, *bars, *screws, lever), seed)
+    assert len({body[name] for name in ("base", "plate", "bar 0", "bar 1", "bar 2")}) == 1
