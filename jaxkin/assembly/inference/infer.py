@@ -35,7 +35,7 @@ from jaxkin.assembly.inference.held import (
 )
 from jaxkin.assembly.inference.hinges import hinges
 from jaxkin.assembly.inference.inference import Inference
-from jaxkin.assembly.inference.keyed import flatted_hubs, keyed_hubs, seated_on_squares, squared_hubs
+from jaxkin.assembly.inference.keyed import flatted_hubs, keyed_hubs, seated_on_squares, slit_hubs, squared_hubs
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.lead_nuts import lead_nuts, on_lead_screws
 from jaxkin.assembly.inference.link_ends import hinged_ends
@@ -147,7 +147,7 @@ def _take_hubs_and_find_fasteners(known: Known) -> set[str]:
     across; find which of the parts of the form of a fastener are fasteners."""
     known.in_ring_grooves = in_ring_grooves(known)
     known.take(feathers(known))
-    known.take([*keyed_hubs(known), *flatted_hubs(known)])
+    known.take([*keyed_hubs(known), *flatted_hubs(known), *slit_hubs(known)])
     known.take(bolted_balls(known))
     known.take([*collets(known), *self_holding_tapers(known)])
     set_in = sleeves(known)

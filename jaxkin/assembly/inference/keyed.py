@@ -6,8 +6,10 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 
 import numpy as np
+from jaxtyping import Float
 
 from jaxkin.assembly.inference.axes import CommonAxis
+from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.meshing_wheels import outer_teeth
@@ -34,6 +36,13 @@ longer."""
 MAX_SEAT_TURN = 0.15
 """Radians by which a hub turns to and fro on such a seat in all, at most: printed ones have a quarter of a millimetre
 on each side of a square of 7."""
+
+AT_BORE = 1.2
+"""Distance of the inner ends of a slit from the axis over that of the bore: a hexagon is wider by 1.15 at its edges."""
+AT_RIM = 0.98
+"""Length of the sides of a slit over that of the rim, and distance of their outer ends over its radius, at least."""
+MAX_SLIT = 0.5
+"""Width of the slit of a collar over the radius of its rim, at most."""
 
 
 def flatted_hubs(known: Known) -> list[Inference]:
@@ -78,6 +87,52 @@ def squared_hubs(known: Known, fastening: Collection[str]) -> list[Inference]:
                 parts = known.in_order((shaft, hub, end))
                 result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
     return result
+
+
+def slit_hubs(known: Known) -> list[Inference]:
+    """Join hubs on the hexagon or the like of a shaft, without play, with the shaft where a slit goes from the bore of
+    the hub to its rim: a clamp collar, whose screw may be left out. What slides on a hexagon has no slit."""
+    result = []
+    for hub in known.parts:
+        rims = [bore for bore in known.bores[hub.name] if not bore.hole]
+        if not rims:
+            continue
+        rim = max(rims, key=lambda bore: bore.radius)
+        if not (slits := _slits(hub, rim)):
+            continue
+        for shaft in known.measured.beside(hub):
+            touching = frozenset((shaft.name, hub.name)) in known.touching
+            if touching and is_on_polygon(hub, shaft, rim.point, rim.axis, SAME_FIT):
+                text = f"flat sides of {shaft.name!r} keep {hub.name!r} from turning on it, and its slit, "
+                text += f"{slits[0]:.3g} wide from the bore to the rim, is that of a clamp"
+                sizes = (("radius", rim.radius), ("width", slits[0]))
+                parts = known.in_order((shaft.name, hub.name))
+                result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
+    return result
+
+
+def _slits(hub: Part, rim: Bore) -> list[float]:
+    """List the widths of the slits of a part, as long as its rim, that go from its bore to the rim on one side."""
+
+    def away(triangles: Float[np.ndarray, "triangles 3 3"]) -> Float[np.ndarray, " corners"]:
+        corners = triangles.reshape(-1, 3) - rim.point
+        return np.linalg.norm(corners - np.outer(corners @ rim.axis, rim.axis), axis=1)
+
+    sides, bore = [], away(hub.triangles).min()
+    for face in hub.faces:
+        plane, corners = face.surface, face.triangles.reshape(-1, 3) - rim.point
+        if isinstance(plane, Plane) and abs(plane.normal @ rim.axis) < ACROSS:
+            reach, long = away(face.triangles), np.ptp(corners @ rim.axis)
+            whole = reach.min() <= AT_BORE * bore and reach.max() >= AT_RIM * rim.radius
+            if whole and long >= AT_RIM * 2 * rim.half:
+                sides.append((plane.normal, -float(corners[0] @ plane.normal), corners.mean(axis=0)))
+    return [
+        one + two
+        for k, (normal, one, middle) in enumerate(sides)
+        for other, two, beside in sides[:k]
+        if normal @ other < -np.cos(ACROSS) and min(one, two) > 0 and one + two <= MAX_SLIT * rim.radius
+        if np.cross(rim.axis, normal) @ middle * (np.cross(rim.axis, normal) @ beside) > 0
+    ]
 
 
 def seated_on_squares(known: Known, fastening: Collection[str]) -> list[Inference]:
