@@ -113,9 +113,10 @@ def _is_dwell(mechanism: Mechanism, contact: Contact) -> bool:
     solids = {part.name: part for part in mechanism.solids}
     turning = [each for each in mechanism.all_joints if each.kind in (JointKind.REVOLUTE, JointKind.CYLINDRICAL)]
     for part, surface in zip(contact.parts, contact.surfaces, strict=True):
+        if not isinstance(surface, Cylinder):
+            continue
         own = [each for each in turning if owner[part] in {owner[name] for name in each.parts}]
-        poses = [np.asarray(each.frames_1, float)[0] for each in own]
-        for pose in poses if isinstance(surface, Cylinder) else ():
+        for pose in (np.asarray(each.frames_1, float)[0] for each in own):
             away = solids[part].triangles.reshape(-1, 3) - pose[:3, 3]
             x, y = (away @ pose[:3, :2]).T
             round_it = abs(np.hypot(x, y) - surface.radius) <= slack
