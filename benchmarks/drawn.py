@@ -96,7 +96,7 @@ def _of_one(
     axis = place.turn @ wanted.axis
     apart = np.linalg.norm(offset - (offset @ axis) * axis) / place.millimetre
     tilt = np.linalg.norm(np.cross(joint.frames_1[0][:3, 2], axis))
-    if tilt > MAX_ANGLE or ("phi" in coordinates | got and apart > MAX_OFFSET):
+    if tilt > MAX_ANGLE or ("phi" in got and apart > MAX_OFFSET):  # a slide has a direction alone
         return f"other: {joint.kind}, axis off by {apart:.2g} mm, {tilt:.2g} rad"
     if got == coordinates:
         return "right"
