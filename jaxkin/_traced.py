@@ -32,7 +32,9 @@ def tell_known_numbers(result: type) -> None:
     def guarded(name: str, method: Any) -> Any:
         @wraps(method)
         def told(self: Any, *args: Any, **kwargs: Any) -> Any:
-            if not traced(*vars(self).values(), args, kwargs):
+            # the values of dictionaries: their keys may be names and pairs, which JAX cannot sort
+            held = [[*each.values()] if isinstance(each, dict) else each for each in vars(self).values()]
+            if not traced(held, args, [*kwargs.values()]):
                 return method(self, *args, **kwargs)
             if name == "__str__":
                 return f"{result.__name__}: traced by JAX, its numbers are known outside of jit, vmap and grad"

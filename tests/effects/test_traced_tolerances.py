@@ -33,6 +33,7 @@ def spread(stated, crank=LENGTHS[1]) -> jk.Tolerances:
 def test_spreads_by_the_tolerances_that_make_them():
     """The worst case is a sum of parts that are proportional to the tolerances, each squared in the variance."""
     known = spread(np.asarray(STATED))
+    assert {CRANK, "C"} <= known.allowed(0.01).scaled.keys() and "worst case" in str(known)  # pairs and names in one
     slope = jax.jit(jax.grad(lambda stated: spread(stated).worst_case))(STATED)
     shares = np.abs(known.sensitivities) * [1.0, 1.0, 3.0, 1.0]
     np.testing.assert_allclose(slope, shares, rtol=1e-12)
