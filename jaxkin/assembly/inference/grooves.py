@@ -56,7 +56,7 @@ def _is_whole(known: Known, pin: Bore, halves: Sequence[Bore]) -> bool:
     heights = known.solids[pin.part].outermost @ axis
     ends = [each.reach(axis) for each in halves]
     beyond = min(low for low, _ in ends) - heights.min(), heights.max() - max(high for _, high in ends)
-    return min(beyond) <= NEAR_LENGTH * pin.radius
+    return bool(min(beyond) <= NEAR_LENGTH * pin.radius)
 
 
 def rollers_in_channels(known: Known, fastening: Collection[str]) -> set[str]:

@@ -58,6 +58,15 @@ def test_a_hub_that_a_washer_keeps_on_its_pin_with_play_turns(washer, gap, turns
 
 
 @pytest.mark.parametrize("seed", SEEDS)
+def test_a_nut_on_a_bolt_in_a_recess_is_held_on_the_face_that_the_bolt_clamps(seed):
+    """The part lies on the shoulder of the bolt, and not on its end, and has a floor beyond that."""
+    base = part("base", ring(10.0, 40.0, 0, 20), ring(10.0, 40.0, -30, -22), ring(38.0, 40.0, -22, 0), *PIVOT)
+    bolt = part("bolt", pin(10.0, -21, 20), pin(17.0, 20, 26), block((-6, -60, 26), (6, 60, 60)))
+    of, _ = read(seed, ["base"], base, bolt, part("nut", ring(10.0, 17.0, -16, 0)))
+    assert of["nut"] == of["bolt"]
+
+
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("touching", [False, True])
 def test_a_nut_through_which_a_shaft_passes_is_on_the_neck_that_it_fits(touching, seed):
     """One that lies on a collar of the shaft may go with it."""
