@@ -132,6 +132,7 @@ def results(motion):
     ]
 
 
+@pytest.mark.long
 def test_results_print_themselves_in_one_line_that_names_what_they_hold(results):
     """Of a hundred poses they had ten to ninety thousand letters."""
     for each in [*results, jax.tree.map(lambda leaf: None, results[0])]:

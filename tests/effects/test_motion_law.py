@@ -244,6 +244,7 @@ def test_screw_axes_print_their_ranges_and_where_there_are_none():
     ]
 
 
+@pytest.mark.long
 def test_a_part_that_turns_in_a_tilted_plane_has_no_pitch():
     """Rounding made it 1e-11 mm a radian, from one pose to another."""
     motion = jk.load(path("fourbar")).mechanism(fixed=["ground"]).sweep({"ground-crank": np.linspace(0, 6, 31)})

@@ -46,6 +46,7 @@ EFFECTS = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", EFFECTS)
 def test_effects_are_drawn_over_the_crank_in_degrees(name, motion, drawn, tmp_path):
     EFFECTS[name](motion).plot(tmp_path / "effect.png")
@@ -69,6 +70,7 @@ def test_equilibria_are_marked_where_the_curve_of_degrees_passes_zero(drawn, tmp
         assert y[before] * y[before + 1] < 0
 
 
+@pytest.mark.long
 def test_a_follower_is_drawn_over_its_shaft(drawn, tmp_path):
     angle = 2 * np.pi * np.arange(40) / 40
     profile = np.stack([3 * np.cos(angle) + 0.5, 3 * np.sin(angle)], axis=1)
