@@ -142,6 +142,7 @@ def test_results_print_themselves_in_one_line_that_names_what_they_hold(results)
         assert line.startswith(f"<{type(each).__name__} with {first}")
 
 
+@pytest.mark.long
 def test_results_say_what_they_hold_where_they_are_asked_for_another_name(results):
     for each in results:
         said = told(each, "nothing_such")
@@ -155,6 +156,7 @@ def test_results_say_what_they_hold_where_they_are_asked_for_another_name(result
     assert told(transmission, "lost_contacts").endswith("did you mean .motion.lost_contacts?")
 
 
+@pytest.mark.long
 def test_results_are_copied_and_pickled(results):
     for each in (copy.deepcopy(results[0]), pickle.loads(pickle.dumps(results[0]))):
         assert each.order == 1 and np.array_equal(each.displacements[0], results[0].displacements[0])
