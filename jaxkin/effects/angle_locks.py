@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
 
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float
+from jaxtyping import Array, Float, Int
 
 from jaxkin._names import listed
 from jaxkin._traced import traced
@@ -17,7 +16,7 @@ from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.mechanism.known_motion import Inputs, KnownDrive, KnownMotion, follow, known_motion
+from jaxkin.mechanism.known_motion import Inputs, KnownDrive, KnownMotion, follow, known_motion, some_poses
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.singularity import DETERMINED, singular_report
 from jaxkin.solve.execution.compiler import whole_program
@@ -81,15 +80,9 @@ def _balls(linkage: Linkage, motion: Motion) -> list[tuple[int, range]]:
     ]
 
 
-def _rates(motion: Motion, chosen: Float[np.ndarray, " poses"]) -> list[np.ndarray]:
+def _rates(motion: Motion, chosen: Int[np.ndarray, " poses"]) -> list[np.ndarray]:
     """Differentiate the displacements of all joints by each input, (poses, coordinates, inputs), at some poses."""
-    some = replace(
-        motion,
-        inputs={name: values[chosen] for name, values in motion.inputs.items()},
-        displacements=tuple(values[chosen] for values in motion.displacements),
-        status=motion.status[chosen],
-        residual=motion.residual[chosen],
-    )
+    some = some_poses(motion, chosen)
     drive, known = known_motion(some)
     return [np.asarray(each) for each in _by_inputs(drive, known, some.inputs)]
 

@@ -9,6 +9,7 @@ with respect to lengths.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 import jax
@@ -70,6 +71,17 @@ class KnownMotion(NamedTuple):
     """Of every loop group of the `KnownDrive`: axes where its derivatives are those of formulas, else joints."""
     displacements: JointDisplacements
     status: Int[Array, " poses"]
+
+
+def some_poses(motion: Motion, chosen: Int[np.ndarray, " chosen"]) -> Motion:
+    """Make the motion of some poses of another one, by their numbers."""
+    return replace(
+        motion,
+        inputs={name: values[chosen] for name, values in motion.inputs.items()},
+        displacements=tuple(values[chosen] for values in motion.displacements),
+        status=motion.status[chosen],
+        residual=motion.residual[chosen],
+    )
 
 
 def known_motion(motion: Motion) -> tuple[KnownDrive, KnownMotion]:

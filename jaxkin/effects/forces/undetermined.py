@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from typing import NamedTuple
 
@@ -16,7 +16,7 @@ from jaxkin.effects.forces.places import places
 from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.joint_motion import JointDisplacements
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.mechanism.known_motion import known_motion
+from jaxkin.mechanism.known_motion import known_motion, some_poses
 from jaxkin.mechanism.motion import Motion
 from jaxkin.solve.execution.compiler import whole_program
 
@@ -61,13 +61,7 @@ def undetermined(motion: Motion) -> tuple[Undetermined, ...]:
     if not len(closed):
         return ()
     chosen = closed[np.unique(np.linspace(0, len(closed) - 1, MAX_POSES + 2)[1:-1].astype(int))]
-    some = replace(
-        motion,
-        inputs={name: values[chosen] for name, values in motion.inputs.items()},
-        displacements=tuple(values[chosen] for values in motion.displacements),
-        status=motion.status[chosen],
-        residual=motion.residual[chosen],
-    )
+    some = some_poses(motion, chosen)
     drive, known = known_motion(some)
     driven = tuple((joint, k) for _, joint, k in drive.driven)
     system = jax.tree.map(np.asarray, _placed(driven, motion.mechanism.linkage, known.displacements))
