@@ -42,11 +42,12 @@ def check_one(what: str, given: str, batch: tuple[int, ...]) -> None:
         )
 
 
-def check_known(what: str, call: str, *given: Any) -> None:
+def check_known(what: str, call: str, *given: Any, inside: str = "") -> None:
     """Raise ValueError where JAX traces numbers of what was given: `what`, which begins the message, is found by `call`
-    on the host."""
+    on the host. `inside` names what may be traced in its place."""
     if traced(given):
-        raise ValueError(f"{what} are found on the host: call {call} outside of jit, vmap and grad")
+        instead = f", or {inside}" if inside else ""
+        raise ValueError(f"{what} are found on the host: call {call} outside of jit, vmap and grad{instead}")
 
 
 def by_name(given: Any, what: str, example: str) -> Mapping[Any, Any]:

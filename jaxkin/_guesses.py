@@ -68,7 +68,8 @@ _WORDS = {
     'motion.coordinates has the displacements of joints, jk.design.stroke(motion, "joint") is the stroke of one': (
         "stroke strokes travel"
     ),
-    "jk.clashes(motion) finds parts that cut each other": "collision collisions interference clash clearance collide",
+    "jk.clashes(motion) finds parts that cut each other, jk.design.clearance(motion, jk.design.bar(...), "
+    "jk.design.bar(...)) is differentiable": "collision collisions interference clash clearance collide min_distance",
     'motion.sigma_min is 0 where a pose is singular, jk.limits(mechanism, "joint") finds dead points, jk.singularities '
     "the curves of two inputs": "singularity singular dead_points dead_point toggle condition manipulability",
     "jk.optimize(jk.design.path(...), mechanism, drive=..., lengths=...) finds a design": (

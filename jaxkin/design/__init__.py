@@ -10,7 +10,9 @@ best.mechanism, best.value, best.history
 """
 
 from jaxkin.design.bounds import Free as Free
+from jaxkin.design.clearance import clearance as clearance
 from jaxkin.design.constraints import above as above
+from jaxkin.design.constraints import apart as apart
 from jaxkin.design.constraints import full_crank as full_crank
 from jaxkin.design.constraints import grashof as grashof
 from jaxkin.design.constraints import in_box as in_box
@@ -30,3 +32,5 @@ from jaxkin.design.optimisers import LevenbergMarquardt as LevenbergMarquardt
 from jaxkin.design.optimize import optimize as optimize
 from jaxkin.design.result import Optimum as Optimum
 from jaxkin.design.result import read_optimum as read_optimum
+from jaxkin.design.shapes import bar as bar
+from jaxkin.design.shapes import solid as solid

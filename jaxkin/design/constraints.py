@@ -17,6 +17,7 @@ import numpy as np
 from jaxkin._arguments import text
 from jaxkin._traced import traced
 from jaxkin.design import given
+from jaxkin.design.clearance import check_shapes, clearance
 from jaxkin.design.measures import (
     STATIC,
     PartPoint,
@@ -27,7 +28,9 @@ from jaxkin.design.measures import (
     transmission_angle,
 )
 from jaxkin.design.objective import Extras
+from jaxkin.design.shapes import Shape
 from jaxkin.dimensions.features import LengthName
+from jaxkin.geometry.characteristic_length import centroid_and_length
 from jaxkin.mechanism.motion import Motion
 
 Constraint = Callable[[Motion, Extras], Any] | Callable[[Motion], Any]
@@ -194,3 +197,26 @@ def above(joint: str, least: float, size: float = 1.0) -> Constraint:
     """Demand that a joint's displacement stays at or above a value; `size` makes it a pure number."""
     text(joint, "above: joint")
     return _Above(joint, given.number(least, "above: least"), given.positive(size, "above: size"))
+
+
+@jax.tree_util.register_dataclass
+@dataclass(frozen=True, eq=False)
+class _Apart(DesignConstraint):
+    name = "apart"
+    one: Shape
+    other: Shape
+    least: Any
+
+    def __call__(self, motion: Motion, extras: Extras):
+        origins = jnp.concatenate([jnp.asarray(each.frames_1)[:, :3, 3] for each in motion.mechanism.all_joints])
+        _, size = centroid_and_length(jax.lax.stop_gradient(origins))
+        return (clearance(motion, self.one, self.other, extras) - self.least) / size
+
+
+def apart(one: Shape, other: Shape, least: float | int = 0.0) -> Constraint:
+    """Demand that two shapes stay at least `least` apart in every pose: see `clearance`.
+
+    Clearances are divided by the root-mean-square distance of the joints from their centre.
+    """
+    check_shapes(one, other, "apart")
+    return _Apart(one, other, given.number(least, "apart: least"))

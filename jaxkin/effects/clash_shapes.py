@@ -10,9 +10,9 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from jaxkin.contacts.whole_face import is_whole
-from jaxkin.effects.sample_points import SurfacePoints, core_points, surface_points
 from jaxkin.geometry.displaced import Displaced
 from jaxkin.geometry.part import Face, Part, box_corners
+from jaxkin.geometry.sample_points import SurfacePoints, core_points, surface_points
 from jaxkin.geometry.surfaces import Cone, Plane, Sphere
 from jaxkin.geometry.triangle_distance import Points
 from jaxkin.geometry.triangle_tree import TriangleTree, aligned_axes, triangle_tree

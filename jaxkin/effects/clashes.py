@@ -59,7 +59,8 @@ def clashes(
     inside `jit`, `vmap` and `grad`.
     """
     check_motion(motion, "clashes")
-    check_known("clashes", "jk.clashes", motion, within, tolerance)
+    shapes = "jk.design.clearance of the shapes of two parts inside"
+    check_known("clashes", "jk.clashes", motion, within, tolerance, inside=shapes)
     mechanism = motion.mechanism
     if not any(part.is_solid for part in mechanism.solids):
         raise ValueError(

@@ -10,7 +10,8 @@
 | | `region_union`, `tessellation_test`, `merge` |
 | fits of surfaces to points | `fit`, `refine` (its steps), `fit_together`, `fit_uncertainty` |
 | distances and crossings of solids | `triangle_tree`, `tree_distances`, `tree_crossings`, `node_boxes`, |
-| | `pose_intervals`, `triangle_distance` |
+| | `pose_intervals`, `triangle_distance`, `sample_points` |
+| the same in JAX, differentiable | `closest_points`, of `mesh_elements` |
 | swept volumes | `signed_distance`, `isosurface` |
 | gears | `teeth`, `tooth_rows`, `outline` |
 
