@@ -3,7 +3,8 @@
 | what | modules |
 |---|---|
 | poses and displacements | `pose` (numpy, one), `rigid` (JAX, many), `displaced` (numpy, many), `screw_motion` |
-| movements | `movements`, made of `elementary_motions`; `chains`, `partial_movement`, `figures` (what is drawn) |
+| movements | `movements`, rows of `movement`, made of `elementary_motions`; `chains`, `partial_movement`, |
+| | `figures` (what is drawn) |
 | what joints follow | `curves` (profiles), `patches` (surfaces) |
 | parts | `part` (with faces), `surfaces` (the four of the paper), `torus`, `inertial`, `units`, `headings` of tables |
 | faces of meshes | `weld` and `stitch` (corners), `shells` (solids), `facets`, `regions` (faces), `region_growing`, |

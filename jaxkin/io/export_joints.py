@@ -18,6 +18,7 @@ _PAIRS = {str(pair[0]): pair for pair in LOWER_PAIRS.values()}
 _OTHER_NAMES = {
     "weld": "fixed", "fastened": "fixed", "rigid": "fixed", "gimbal": "spherical", "ball": "spherical",
     "hinge": "revolute", "pin": "revolute", "slider": "prismatic", "cylinder": "cylindrical",
+    "parallel": "schoenflies",
 }  # fmt: skip
 """What systems call the lower pairs. A gimbal has the rotations of a ball, as angles about successive axes."""
 NEARLY_PERPENDICULAR = 1e-4
@@ -134,6 +135,7 @@ _HELD = {
     "cylindrical": _Held("xy", "axis"), "planar": _Held("z", "axis"), "spherical": _Held("xyz"),
     "universal": _Held("xyz"), "pinslot": _Held("yz", "axis"), "pininslot": _Held("yz", "axis"),
     "bearing": _Held("xy"), "telescoping": _Held("xy"),
+    "rectangular": _Held("z", "all"), "cartesian": _Held("", "all"), "schoenflies": _Held("", "axis"),
     **dict.fromkeys(("6dof", "sixdof", "free", "bushing"), _Held("")),
 }  # fmt: skip
 """Kinds of joints, as `joint_of_kind` knows them -> what they hold."""

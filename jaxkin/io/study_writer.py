@@ -183,19 +183,32 @@ def _keys(joint: Joint) -> tuple[str, dict[str, object]]:
 
 
 def _direction(joint: Joint, pose: Transform) -> list[float] | None:
-    """Find the direction of a straight slot, or of x of a profile."""
+    """Find the direction of a straight slot, or of x of a profile or of several slides."""
     if joint.curves:
         return axes_of(joint)[:3, 0].tolist()
+    if _slides_across(joint):
+        return pose[:3, 0].tolist()
     return pose[:3, 2].tolist() if MOVEMENTS[joint.movements[0]].only_slides else None
+
+
+def _slides_across(joint: Joint) -> bool:
+    """Tell whether the first movement of a joint slides along several axes."""
+    return MOVEMENTS[joint.movements[0]].turns_and_slides[1] > 1
+
+
+def _axis2(joint: Joint, pose: Transform) -> list[float] | None:
+    """Find the axis on part 2; that of a constant velocity joint is written as the direction between its shafts."""
+    if _slides_across(joint):
+        return _pin(joint)[:3, 2].tolist()
+    return None if MOVEMENTS[joint.movements[0]].repeats else pose[:3, 0].tolist()
 
 
 WRITTEN_ARGUMENTS: dict[str, Callable[[Joint, Transform], object]] = {
     "point": lambda joint, _: (axes_of(joint) if joint.curves else _pin(joint))[:3, 3].tolist(),
     "axis": lambda joint, _: (axes_of(joint) if joint.curves else _pin(joint))[:3, 2].tolist(),
     "normal": lambda _, pose: pose[:3, 2].tolist(),
-    "axis1": lambda _, pose: pose[:3, 1].tolist(),
-    # the axis of a constant velocity joint is written as the direction that bisects its shafts
-    "axis2": lambda joint, pose: None if MOVEMENTS[joint.movements[0]].repeats else pose[:3, 0].tolist(),
+    "axis1": lambda joint, pose: pose[:3, 2 if _slides_across(joint) else 1].tolist(),
+    "axis2": _axis2,
     "pitch": lambda joint, _: float(joint.pitch),
     "direction": _direction,
     "centre": lambda joint, pose: None if MOVEMENTS[joint.movements[0]].only_slides else pose[:3, 3].tolist(),

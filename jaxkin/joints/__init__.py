@@ -3,7 +3,7 @@
 | what | modules |
 |---|---|
 | a joint | `joint`, `kinds`, `limits`, `evidence` (what it is known from), `screws` (its displacements and twists) |
-| joints by hand | `pairs`, with `axis_frame`; by a frame on each part: `on_frames`, `two_frames` |
+| joints by hand | `pairs`, `sliding_joints`, with `axis_frame`; by a frame on each part: `on_frames`, `two_frames` |
 | along curves, over surfaces | `curve_joints`, `profile_plane`, `profiles`; `surface_joints`, `patch_contact` |
 | from contacts of solids | `from_contacts`, `combine` (to one lower pair), `mates` (of CAD systems) |
 | without the noise of files | `regularise`, `directions`, `axes`; how large it is: `file_noise` |

@@ -1,10 +1,12 @@
-"""Combine several contacts of the same two parts into the one lower pair that they are exactly equivalent to.
+"""Combine several contacts, or mates, of the same two parts into the one pair that they are exactly equivalent to.
+
+A pair is a joint whose displacements form a group: a lower pair, or, from mates that keep an angle only, slides in a
+plane or in space, with or without a turn.
 
 A displacement keeps all contacts if it lies in the displacement set of each contact. To first order these sets are
-spaces of twists, and their intersection leaves one candidate for the lower pair. The candidate is then verified at
-finite displacements: contact of the four surfaces is an algebraic condition, so a pair that keeps the contacts at a
-random displacement keeps them at every displacement. No larger set keeps them, since none has more freedoms at the
-pose.
+spaces of twists, and their intersection leaves one candidate for the pair. The candidate is then verified at finite
+displacements: contact of the four surfaces is an algebraic condition, so a pair that keeps the contacts at a random
+displacement keeps them at every displacement. No larger set keeps them, since none has more freedoms at the pose.
 
 The result is never a screw: a helix is not algebraic, so contacts that allow a screw motion also allow its rotation and
 its translation separately.
@@ -20,8 +22,9 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.contacts.contact import Contact
-from jaxkin.geometry.movements import MOVEMENTS, Movement
-from jaxkin.geometry.pose import Transform, Vector, cross, frame, skew
+from jaxkin.geometry.movement import Movement
+from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.pose import Transform, Vector, cross, frame, inverse, skew
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.regularise import Noise, movements
 from jaxkin.joints.screws import Screws, complement, freedoms, misfit
@@ -29,7 +32,7 @@ from jaxkin.joints.screws import chain as displace
 
 
 def lower_pairs(movements: Mapping[str, Movement]) -> dict[tuple[int, int], tuple[JointKind, str]]:
-    """Tabulate the lower pairs among some movements: number of rotations and of translations -> kind, key.
+    """Tabulate the pairs among some movements: number of rotations and of translations -> kind, key.
 
     Raises ValueError where two of them share these numbers: contacts that are combined could not tell them apart.
     """
@@ -48,12 +51,13 @@ def lower_pairs(movements: Mapping[str, Movement]) -> dict[tuple[int, int], tupl
 
 
 LOWER_PAIRS = lower_pairs(MOVEMENTS)
-"""Number of rotations and of translations, which no two lower pairs share -> kind and movement of the pair."""
+"""Number of rotations and of translations, which no two pairs share -> kind and movement of the pair."""
 
 
 @dataclass(frozen=True, eq=False)
 class LowerPair:
-    """A lower pair with its place: revolute, prismatic, cylindrical, planar, spherical, or fixed (no freedoms)."""
+    """A pair with its place: revolute, prismatic, cylindrical, planar, spherical, or fixed (no freedoms); of mates also
+    rectangular, cartesian or Schoenflies."""
 
     kind: JointKind
     movement: str
@@ -85,11 +89,12 @@ def combine(contacts: Sequence[Contact], noise: Noise) -> LowerPair | None:
 
 
 def lower_pair(chains: Sequence[Chain], noise: Noise) -> LowerPair | None:
-    """Find the lower pair whose displacements are the intersection of the sets of all chains; None if no pair is.
+    """Find the pair whose displacements are the intersection of the sets of all chains; None if no pair is.
 
     Where the pair leaves the origin of its frame arbitrary, the admissible point next to the first frame of the first
     chain is chosen; the directions are those of the first frame of any chain with a parallel z axis, or arbitrary in x
-    and y if there is none. `noise` says which deviations count as zero.
+    and y if there is none. Of a pair that only slides, x is along the first z axis of another direction, across z.
+    `noise` says which deviations count as zero.
     """
     centre, size = chains[0].frames[0, :3, 3], noise.size
     # lengths from `centre` over `size`, so that one tolerance serves angles and lengths
@@ -116,6 +121,22 @@ def lower_pair(chains: Sequence[Chain], noise: Noise) -> LowerPair | None:
     return LowerPair(kind, movement, pose, float(strengths[:rank].min(initial=1.0)))
 
 
+def includes(loose: Chain, strict: Chain, noise: Noise, back: bool = False) -> bool:
+    """Check whether a set of displacements has all that another one has, or their inverses where `back`.
+
+    Both are found to finite displacements, as in `lower_pair`, since chains are algebraic.
+    """
+    if (count := freedoms(strict.movements)) > freedoms(loose.movements):
+        return False
+    centre = strict.frames[0, :3, 3]
+    loose, strict = (Chain(each.movements, _scaled(each.frames, centre, noise.size)) for each in (loose, strict))
+    for q in np.random.default_rng(0).uniform(-0.5, 0.5, (2, count)):
+        displacement = displace(*strict, q)[0]
+        if misfit(*loose, inverse(displacement) if back else displacement) > 4 * noise.angle:
+            return False
+    return True
+
+
 def _scaled(frames: np.ndarray, centre: Vector, size: float) -> np.ndarray:
     """Move the origins of frames by `-centre` and divide them by `size`."""
     result = frames.copy()
@@ -124,7 +145,7 @@ def _scaled(frames: np.ndarray, centre: Vector, size: float) -> np.ndarray:
 
 
 def _candidate(twists: Screws, frames: np.ndarray, tolerance: float) -> tuple[JointKind, str, Transform] | None:
-    """Find the lower pair with the same first-order freedoms as a space of twists; None if no lower pair has them.
+    """Find the pair with the same first-order freedoms as a space of twists; None if no pair has them.
 
     `twists` (6, freedoms) spans the space; `frames` (frames, 4, 4) are all frames of the chains, scaled, from which
     arbitrary origins and directions are taken. Returns the kind, the key in `MOVEMENTS` and the frame of the pair.
@@ -139,13 +160,21 @@ def _candidate(twists: Screws, frames: np.ndarray, tolerance: float) -> tuple[Jo
     origin, z = frames[0, :3, 3], frames[0, :3, 2]
     if rotations == 1:
         z = directions[:, 0]
-    elif slides.size:
+    elif slides.shape[1] == 1:
         z = slides[:, 0]
+    elif slides.shape[1] == 2:
+        z = cross(*slides.T)
     aligned = MOVEMENTS[movement].aligned
     if aligned & {"axis", "centre"}:
         # a rotation w about the point p moves the origin of the world by v = p x w
         crosses = np.vstack([-skew(w) for w in turns[:3].T])
         point = np.linalg.lstsq(crosses, turns[3:].T.ravel(), rcond=tolerance)[0]
         origin = point + z * ((origin - point) @ z) if "axis" in aligned else point
-    parallel = [pose for pose in frames if np.linalg.norm(cross(pose[:3, 2], z)) <= tolerance]
-    return kind, movement, frame(origin, parallel[0][:3, 2], parallel[0][:3, 0]) if parallel else frame(origin, z)
+    is_parallel = [bool(np.linalg.norm(cross(pose[:3, 2], z)) <= tolerance) for pose in frames]
+    if True not in is_parallel:
+        return kind, movement, frame(origin, z)
+    same = frames[is_parallel.index(True)]
+    x = same[:3, 0]
+    if rotations == 0 and slides.shape[1] > 1 and False in is_parallel:
+        x = frames[is_parallel.index(False), :3, 2]
+    return kind, movement, frame(origin, same[:3, 2], x)

@@ -23,6 +23,7 @@ from jaxkin.joints.curve_joints import cam, curve_on_curve, point_on_curve
 from jaxkin.joints.joint import Joint, joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.limits import GivenLimits, with_limits
+from jaxkin.joints.sliding_joints import cartesian, constant_angle, rectangular, schoenflies
 from jaxkin.joints.surface_joints import point_on_surface
 
 __all__ = [  # noqa: RUF022 - what users import from `jaxkin`, in the order of the documents
@@ -36,6 +37,10 @@ __all__ = [  # noqa: RUF022 - what users import from `jaxkin`, in the order of t
     "screw",
     "fixed",
     "free",
+    "rectangular",
+    "cartesian",
+    "schoenflies",
+    "constant_angle",
     "pin_in_slot",
     "point_on_curve",
     "cam",
@@ -279,6 +284,10 @@ JOINTS_BY_HAND: dict[str, Callable[..., Joint]] = {
     JointKind.SCREW: screw,
     JointKind.FIXED: fixed,
     JointKind.FREE: free,
+    JointKind.RECTANGULAR: rectangular,
+    JointKind.CARTESIAN: cartesian,
+    JointKind.SCHOENFLIES: schoenflies,
+    JointKind.CONSTANT_ANGLE: constant_angle,
     JointKind.PIN_IN_SLOT: pin_in_slot,
     JointKind.POINT_ON_CURVE: point_on_curve,
     JointKind.CAM: cam,

@@ -18,6 +18,7 @@ FREE = {
     "Spherical": "about x, about y, about z", "Universal": "about x, about y", "PinSlot": "x, about z",
     "Bearing": "z, about x, about y, about z", "Telescoping": "z, about x, about y, about z",
     "SixDof": "x, y, z, about x, about y, about z",
+    "Rectangular": "x, y", "Cartesian": "x, y, z", "Parallel": "x, y, z, about z",
 }  # fmt: skip
 """Kind of joint -> displacements of its follower that it allows."""
 

@@ -241,6 +241,7 @@ def test_a_part_whose_file_holds_no_solid_is_a_box(tmp_path):
 KINDS = [
     ("Weld", 0), ("Revolute", 1), ("Prismatic", 1), ("Cylindrical", 2), ("Planar", 3), ("Spherical", 3),
     ("Ball", 3), ("Gimbal", 3), ("PinSlot", 2), ("Bearing", 4), ("Telescoping", 4), ("Bushing", 6), ("SixDof", 6),
+    ("Rectangular", 2), ("Cartesian", 3), ("Parallel", 4),
 ]  # fmt: skip
 
 
@@ -264,7 +265,7 @@ def test_a_universal_joint_turns_about_x_of_its_base_and_y_of_its_follower(tmp_p
         assert np.trace(rotation) == pytest.approx(1 + 2 * np.cos(0.3))
 
 
-@pytest.mark.parametrize("kind", ["Cartesian", "Rectangular", "LeadScrew"])
+@pytest.mark.parametrize("kind", ["LeadScrew", "Gear"])
 def test_kinds_that_are_no_joints_here_are_named(tmp_path, kind):
     tree = instance("base", grounded="true") + instance("arm", (0.1, 0, 0))
     mechanism = load(tmp_path, tree, joint(kind, "odd", "base", "arm", (0, 0, 0))).mechanism()

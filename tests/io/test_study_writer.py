@@ -45,6 +45,22 @@ def test_joints_by_hand(name, tmp_path):
     assert_same(jk.load_study(tmp_path / "study.toml").mechanism, given)
 
 
+def test_slides_come_back_along_the_directions_that_they_had(tmp_path):
+    joints = [
+        jk.rectangular("table", "ground", "a", normal=(1, 2, 2), direction=(2, 1, -2), limits={"y": (-1, 2)}),
+        jk.cartesian("gantry", "a", "b", axis=(1, 1, 0), direction=(1, -1, 3), point=(1, 2, 3)),
+        jk.schoenflies("hand", "b", "c", axis=(0, 3, 4), direction=(5, 4, -3), point=(3, 2, 1)),
+        jk.constant_angle("slope", "c", "d", axis1=(0, 3, 4), axis2=(1, 1, 1), direction=(1, 4, -3), point=(3, 2, 1)),
+    ]
+    given = jk.Mechanism.build(fixed=["ground"], joints=joints)
+    jk.write_study(given, tmp_path / "study.toml")
+    found = jk.load_study(tmp_path / "study.toml").mechanism
+    assert_same(found, given)
+    for joint in joints:
+        np.testing.assert_allclose(found.joints[joint.name].frames_1, joint.frames_1, atol=1e-15)
+        np.testing.assert_allclose(found.joints[joint.name].limits, joint.limits, atol=1e-15)
+
+
 @pytest.mark.parametrize(
     "name", [pytest.param(name, marks=[pytest.mark.long] * (name != "fourbar")) for name in EXAMPLES]
 )

@@ -21,7 +21,7 @@ from jaxkin.view.sticks import stick_parts
 
 PACKAGE = Path(jk.__file__).parent
 NAMED_IN = {"geometry/movements.py", "contacts/states.py", "joints/pairs.py"}
-NAMED_IN |= {"joints/curve_joints.py", "joints/surface_joints.py"}
+NAMED_IN |= {"joints/curve_joints.py", "joints/sliding_joints.py", "joints/surface_joints.py"}
 """The rows themselves, and where joints and contact states are made of them."""
 
 
@@ -77,7 +77,7 @@ def test_two_movements_are_not_the_same_lower_pair():
         ValueError, match=r"'T_new'.*'screw', with 1 rotations and 0 translations, as 'T_phi'.*revolute"
     ):
         lower_pairs(MOVEMENTS | {"T_new": other})
-    assert lower_pairs(MOVEMENTS) == LOWER_PAIRS and len(LOWER_PAIRS) == 6
+    assert lower_pairs(MOVEMENTS) == LOWER_PAIRS and len(LOWER_PAIRS) == 9
 
 
 @pytest.mark.parametrize("state", CONTACT_STATES, ids=lambda state: f"{state.letter}-{state.region}")

@@ -17,6 +17,12 @@ def matrix(movement, q, pitch=0.0):
             rows = [[one, zero, zero, q[0]], [zero, one, zero, zero], [zero, zero, one, zero]]
         case "T_y":
             rows = [[one, zero, zero, zero], [zero, one, zero, q[0]], [zero, zero, one, zero]]
+        case "T_xy":
+            rows = [[one, zero, zero, q[0]], [zero, one, zero, q[1]], [zero, zero, one, zero]]
+        case "T_xyz":
+            rows = [[one, zero, zero, q[0]], [zero, one, zero, q[1]], [zero, zero, one, q[2]]]
+        case "T_xyz_phi":
+            rows = _about_z(c[3], s[3], *q[:3])
         case "T_phi":
             rows = _about_z(c[0], s[0], zero, zero, zero)
         case "T_theta":

@@ -26,7 +26,8 @@ from jaxkin._traced import traced
 from jaxkin.effects.forces.masses import Masses
 from jaxkin.effects.forces.screws import Scale
 from jaxkin.geometry.elementary_motions import amount, displaced_columns
-from jaxkin.geometry.movements import MOVEMENTS, Movement
+from jaxkin.geometry.movement import Movement
+from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.trig import cos_sin
 from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.linkage import Linkage
