@@ -156,8 +156,14 @@ def _placed(
 
 
 def _extent(export: Export) -> float:
-    """Measure the largest extent of the origins of the parts, metres; one millimetre at least."""
-    return max(1e-3, float(np.ptp([part.transform[:3, 3] for part in export.parts], axis=0).max()))
+    """Measure the largest extent of the places of parts, joints and mates, metres; one millimetre at least.
+
+    Parts that were modelled where they are in the assembly all have its origin.
+    """
+    places = [part.transform[:3, 3] for part in export.parts]
+    places += [side.frame[:3, 3] for joint in export.joints for side in joint.sides]
+    places += [side.point for mate in export.mates for side in mate.sides]
+    return max(1e-3, float(np.ptp(places, axis=0).max()))
 
 
 def _box(edge: float) -> Part:
