@@ -6,7 +6,7 @@ The route is told on the page "Architecture". What the modules do on it:
 |---|---|
 | what the user holds, and asks for | `assembly`, `ignored_contacts` |
 | contacts, inferences and joints by hand become a mechanism | `to_mechanism`, `joined` |
-| what the file itself says of its joints | `exported`, `close_export`, `from_export`, `subassemblies` |
+| what the file says of its joints | `exported`, `close_export`, `from_export`, `joints_of_two`; `subassemblies` |
 | what solids imply beside exact contacts | `inference`, tried by `with_inferences` (`trials`, `dropped_inference`) |
 | bodies held to each other, where all else moves | `seats`, `guides`, `resting`, `lids`, `tight_fits`, `hinge_bores` |
 | valves that leave their seats, where nothing moves else | `lifting_seats` |

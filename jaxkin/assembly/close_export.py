@@ -96,9 +96,7 @@ def _closed(mechanism: Mechanism, *ways: list[str]) -> Reassembly:
 
 
 def _joint(each: Constraint, frames_2: np.ndarray) -> Joint:
-    """Make the joint of a constraint, its two frames where they are; ValueError for a constraint that is no joint."""
-    if each.kind is None:
-        raise ValueError(f"{each.text} is no joint by itself: it has no kind")
+    """Make the joint of a constraint, its two frames where they are."""
     movements, pitch = tuple(each.chain.movements), np.asarray(each.pitch, float)
     return Joint(each.name, each.parts, each.kind, movements, each.chain.frames, frames_2, pitch, BY_HAND, each.limits)
 

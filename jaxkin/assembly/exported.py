@@ -27,8 +27,8 @@ class Constraint:
     """What the file calls it, such as "Revolute 'hinge'"."""
     chain: Chain
     """The displacements that it allows; a weld allows none."""
-    kind: JointKind | None
-    """The kind of joint that it is by itself; None where it is none."""
+    kind: JointKind
+    """The kind of joint that it is by itself."""
     offset: float = 0.0
     """Distance between the two places that the export gives for its axis or centre, in the unit of the assembly."""
     tilt: float = 0.0

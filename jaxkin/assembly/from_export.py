@@ -15,16 +15,14 @@ from jaxkin.assembly.ignored_contacts import check_ignored
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.untied import tied_to_nothing
+from jaxkin.assembly.joints_of_two import apart, joints_of_two, told
 from jaxkin.assembly.subassemblies import rigid_subassemblies
 from jaxkin.assembly.to_mechanism import MechanismOptions, check_options, make_mechanism
 from jaxkin.contacts.contact import Contacts
 from jaxkin.geometry.part import size
 from jaxkin.joints.combine import lower_pair
 from jaxkin.joints.evidence import Evidence, EvidenceKind
-from jaxkin.joints.joint import Joint, joint
 from jaxkin.joints.kinds import JointKind
-from jaxkin.joints.mates import ANGLE_KEPT
-from jaxkin.joints.pairs import universal
 from jaxkin.joints.regularise import Noise
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.coupled import counted_from, coupled
@@ -160,7 +158,7 @@ def _tell_apart(constraints: Sequence[Constraint], notes: list[str], noise: Nois
     """Tell which welds are between frames that do not coincide."""
     for each in constraints:
         if each.kind is JointKind.FIXED:
-            _apart([each], notes, noise)
+            apart([each], notes, noise)
 
 
 def _replaced_notes(known: Known, constraints: Sequence[Constraint], options: MechanismOptions) -> list[str]:
@@ -168,7 +166,7 @@ def _replaced_notes(known: Known, constraints: Sequence[Constraint], options: Me
     body, notes = known.body, []
     for owners, given in {frozenset(body[part] for part in each.parts): each for each in options.joints}.items():
         if replaced := [each for each in constraints if {body[part] for part in each.parts} == owners]:
-            notes.append(f"joint {given.name!r}, given by hand, replaces {_told(replaced)} between its parts")
+            notes.append(f"joint {given.name!r}, given by hand, replaces {told(replaced)} between its parts")
     return notes
 
 
@@ -188,9 +186,7 @@ def _locked(known: Known, constraints: Sequence[Constraint], noise: Noise, notes
     for several in _between(known, constraints):
         pair = lower_pair([each.chain for each in several], noise) if len(several) > 1 else None
         if pair is not None and pair.kind is JointKind.FIXED:
-            evidence = Evidence(
-                EvidenceKind.EXPORT, _apart(several, notes, noise), f"{_told(several)} leave no freedom"
-            )
+            evidence = Evidence(EvidenceKind.EXPORT, apart(several, notes, noise), f"{told(several)} leave no freedom")
             result.append(Inference(several[0].parts, evidence))
     return result
 
@@ -203,81 +199,14 @@ def _joints(
     motors: Sequence[str],
     taken: Collection[str],
 ) -> list[Inference]:
-    """Make the joints between bodies, with names that are not `taken`; what is no joint, and axes that do not meet, are
-    added to the notes."""
+    """Make the joints between bodies, with names that are not `taken`; axes that do not meet are added to the notes."""
     driven, taken = {*motors, *(name.rpartition(".")[0] for name in motors)}, {*taken}
     result = []
     for several in _between(known, constraints):
         whole = len(several) > 1 and not any(each.limits or each.pitch or each.name in driven for each in several)
-        for name, found in _joints_of_two(several, noise, notes, whole):
-            unique = free_name(name, taken)
+        for found in joints_of_two(several, known.body, noise, notes, whole):
+            unique = free_name(found.name, taken)
             taken.add(unique)
             evidence = found.evidence or Evidence(EvidenceKind.EXPORT)
             result.append(Inference(found.parts, evidence, replace(found, name=unique)))
     return result
-
-
-def _joints_of_two(
-    several: Sequence[Constraint], noise: Noise, notes: list[str], whole: bool
-) -> list[tuple[str, Joint]]:
-    """Make the joints of two bodies with names that others may have too: with `whole` one lower pair where there is
-    one."""
-    parts = several[0].parts
-    if whole and (pair := lower_pair([each.chain for each in several], noise)) is not None:
-        evidence = _evidence(several, notes, noise)
-        made = joint("-".join(parts), parts, pair.kind, (pair.movement,), [pair.frame], evidence=evidence)
-        return [("-".join(parts), made)]
-    if whole and (cross := _cross(several, noise)) is not None:
-        return [(cross.name, replace(cross, evidence=_evidence(several, notes, noise)))]
-    result = []
-    for each in several:
-        if each.kind is None:
-            notes.append(
-                f"{each.text} between {each.parts[0]!r} and {each.parts[1]!r} is left out: by itself it is no joint, "
-                "and with what else joins the two it is no lower pair"
-            )
-        else:
-            movements, frames = tuple(each.chain.movements), each.chain.frames
-            evidence = _evidence([each], notes, noise)
-            more = {"pitch": each.pitch, "evidence": evidence, "limits": each.limits}
-            result.append((each.name, joint(each.name, each.parts, each.kind, movements, frames, **more)))
-    return result
-
-
-def _cross(several: Sequence[Constraint], noise: Noise) -> Joint | None:
-    """Make the universal joint that a ball and two lines amount to that stay perpendicular; None if there is none."""
-    for each in several:
-        rest = [other.chain for other in several if other is not each]
-        if not rest or each.kind is not None or tuple(each.chain.movements) != ANGLE_KEPT:
-            continue
-        axis1, axis2 = each.chain.frames[0, :3, 2], each.chain.frames[-1, :3, 2]
-        ball = lower_pair(rest, noise)
-        if ball is None or ball.kind is not JointKind.SPHERICAL or abs(float(axis1 @ axis2)) > noise.angle:
-            continue
-        axis2 = axis2 - (axis1 @ axis2) * axis1
-        return universal("-".join(each.parts), *each.parts, point=ball.frame[:3, 3], axis1=axis1, axis2=axis2)
-    return None
-
-
-def _evidence(several: Sequence[Constraint], notes: list[str], noise: Noise) -> Evidence:
-    """Tell what a joint is known from."""
-    return Evidence(EvidenceKind.EXPORT, _apart(several, notes, noise), _told(several))
-
-
-def _apart(several: Sequence[Constraint], notes: list[str], noise: Noise) -> tuple[tuple[str, float], ...]:
-    """Measure how far axes and features of the two sides do not meet; where they do not, a note has the sizes."""
-    offset, tilt = max(each.offset for each in several), max(each.tilt for each in several)
-    if offset <= noise.length and tilt <= noise.angle:
-        return ()
-    parts = " and ".join(map(repr, several[0].parts))
-    welds = all(each.kind is JointKind.FIXED for each in several)
-    taken = "the two stay where they are" if welds else f"taken as it stands on {several[0].parts[0]!r}"
-    notes.append(
-        f"{_told(several)} between {parts}: its two sides are {offset:.2g} and {tilt:.2g} rad apart as exported; "
-        f"{taken}"
-    )
-    return (("offset", offset), ("tilt", tilt))
-
-
-def _told(several: Sequence[Constraint]) -> str:
-    return " and ".join(each.text for each in several)

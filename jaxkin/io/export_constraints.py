@@ -102,44 +102,49 @@ def mates_between(
     mates: Iterable[ExportedMate], where: ConstrainedParts, metres: float, size: float, notes: list[str]
 ) -> list[Constraint]:
     """Find the mates between parts of an assembly of a size; those that are not understood are added to the notes."""
-    return [found for each in mates if (found := _mate(each, where, metres, PARALLEL_MATES * size, notes)) is not None]
+    return [found for each in mates for found in _mate(each, where, metres, PARALLEL_MATES * size, notes)]
 
 
 def _mate(
     each: ExportedMate, where: ConstrainedParts, metres: float, length: float, notes: list[str]
-) -> Constraint | None:
-    """Find what a mate between two parts leaves free; None, and a note, where it holds nothing or is not understood;
-    None for one that holds what stands in the world anyway.
+) -> list[Constraint]:
+    """Find what a mate between two parts leaves free; nothing, and a note, where it holds nothing or is not understood;
+    nothing for one that holds what stands in the world anyway.
 
     Features that differ by less than `length`, in the unit of the assembly, count as coincident.
     """
     text = f"{each.kind} {each.name!r}"
     paths = each.sides[0].path, each.sides[1].path
     if where.is_ground(paths):
-        return None
+        return []
     if (parts := where.parts(*paths)) is None:
         notes.append(f"{text}: {where.why_not(paths)}; left out")
-        return None
+        return []
     if each.kind.lower() in RANGES and any(word in _plain(each.name) for word in LIMITS):
         notes.append(
             f"{text} between {parts[0]!r} and {parts[1]!r} is a limit by its name: it holds nothing in between"
         )
-        return None
+        return []
     if each.kind.lower() in LOCKS or (each.kind == UNKNOWN and each.name.lower().startswith(LOCKS)):
         if each.kind == UNKNOWN:
             notes.append(f"{text} between {parts[0]!r} and {parts[1]!r} is taken for a lock, by its name")
-        return Constraint(
-            cleaned(each.name), parts, text, Chain((LOWER_PAIRS[0, 0][1],), np.eye(4)[None]), JointKind.FIXED
-        )
+        held = Chain((LOWER_PAIRS[0, 0][1],), np.eye(4)[None])
+        return [Constraint(cleaned(each.name), parts, text, held, JointKind.FIXED)]
     features = [MateFeature.of(side.kind, side.point / metres, side.axis) for side in each.sides]
-    found = mate(each.kind, features[0], features[1], PARALLEL_MATES, length) if features[0] and features[1] else None
-    if found is None:
+    found = mate(each.kind, features[0], features[1], PARALLEL_MATES, length) if features[0] and features[1] else ()
+    if not found:
         named = [side.kind or "nameless feature" for side in each.sides]
         of = " and ".join(f"{'an' if kind[0].lower() in 'aeiou' else 'a'} {kind}" for kind in named)
-        notes.append(f"{text} of {of}, between {parts[0]!r} and {parts[1]!r}, is not understood; left out")
-        return None
-    ends = (parts[1], parts[0]) if found.swapped else parts
-    return Constraint(cleaned(each.name), ends, text, found.chain, found.kind, found.offset, found.tilt)
+        notes.append(
+            f"{text} of {of}, between {parts[0]!r} and {parts[1]!r}, is not understood; left out; a joint by hand "
+            "between the two (joints=) stands in place of all that the file says of them"
+        )
+        return []
+    name, back = cleaned(each.name), (parts[1], parts[0])
+    return [
+        Constraint(name, back if one.swapped else parts, text, one.chain, one.kind, one.offset, one.tilt)
+        for one in found
+    ]
 
 
 def _plain(name: str) -> str:

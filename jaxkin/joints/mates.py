@@ -1,7 +1,8 @@
 """Mates of CAD systems as displacement sets: two features of two parts keep their distance, or their angle.
 
 A mate that keeps a distance, zero or not, is a contact state of the paper: a plane stands for a plane, a line for a
-cylinder about it, a point for a ball, of radii that add up to the distance.
+cylinder about it, a point for a ball, of radii that add up to the distance. One that keeps an angle is a Schoenflies
+joint where directions stay parallel, else a joint of constant angle.
 """
 
 from __future__ import annotations
@@ -65,8 +66,8 @@ class MateSet(NamedTuple):
     """The displacements that one mate allows."""
 
     chain: Chain
-    kind: JointKind | None
-    """The kind of joint that the mate is by itself; None where it is none."""
+    kind: JointKind
+    """The kind of joint that the mate is by itself."""
     swapped: bool = False
     """Whether the chain begins at the second part."""
     offset: float = 0.0
@@ -75,27 +76,31 @@ class MateSet(NamedTuple):
     """Angle by which features are not parallel, or not perpendicular, that are to be, radians."""
 
 
-def mate(tag: str, one: MateFeature, other: MateFeature, angle: float, length: float) -> MateSet | None:
-    """Find the displacements that a mate allows, by the name that exporters give to it; None if it is not understood.
+def mate(tag: str, one: MateFeature, other: MateFeature, angle: float, length: float) -> tuple[MateSet, ...]:
+    """Find the displacements that a mate allows, by the name that exporters give to it; none if it is not understood.
+
+    They are those that all sets of the result allow: one set, but for a point on a circle, which lies in a plane and on
+    a cylinder.
 
     What is to coincide, to be parallel or perpendicular is taken to be, as it stands on the first of the two parts;
     distances and other angles are those of the assembled pose. Directions within `angle` (radians) are parallel;
-    features nearer to each other than `length` coincide. None, too, for a distance between features that are not
-    parallel, and for what touches a cone beside its axis.
+    features nearer to each other than `length` coincide. None are found, too, for a distance between features that are
+    not parallel, and for what touches a cone beside its axis.
     """
     tag = tag.lower()
     order: tuple[FeatureKind, ...] = ("plane", "line", "point")
     swapped = order.index(one.kind) > order.index(other.kind)
     first, second = (other, one) if swapped else (one, other)
     if tag in KEEP_ANGLE and "point" not in (one.kind, other.kind):
-        return _angle_kept(tag, first, second, angle)._replace(swapped=swapped)
+        return (_angle_kept(tag, first, second, angle)._replace(swapped=swapped),)
     if tag not in COINCIDE + KEEP_DISTANCE:
-        return None
+        return ()
     if tag != "concentric" and (first.cone or second.cone):
-        return _on_cone(tag, first, second, swapped, angle, length)
+        touching = _on_cone(tag, first, second, swapped, angle, length)
+        return () if touching is None else (touching,)
     offset = tilt = 0.0
     if tag == "coincident" and first.circle and second.kind == "point" and _beside(first, second.point) > length:
-        return _on_circle(first, second, swapped)
+        return _on_circle(first, second, swapped, angle, length)
     if tag in COINCIDE and not (tag == "coincident" and _on_round(first, second)):
         flat = tag == "coincident" and second.circle and (first.circle or first.kind == "plane")
         first = replace(first, kind="plane") if flat and first.circle else first
@@ -103,19 +108,20 @@ def mate(tag: str, one: MateFeature, other: MateFeature, angle: float, length: f
         if flat and one.circle and other.circle:
             apart = float(np.linalg.norm(second.point - first.point))
             pin = Chain([_ALONE[JointKind.REVOLUTE]], frame(first.point, first.axis)[None])
-            return MateSet(pin, JointKind.REVOLUTE, swapped, apart, tilt)
+            return (MateSet(pin, JointKind.REVOLUTE, swapped, apart, tilt),)
         second = laid
     found = _DISTANCES[first.kind, second.kind](first, second, angle, length)
-    return None if found is None else MateSet(found[0], found[1], swapped, offset, tilt)
+    return () if found is None else (MateSet(found[0], found[1], swapped, offset, tilt),)
 
 
-def _on_circle(circle: MateFeature, point: MateFeature, swapped: bool) -> MateSet:
-    """Find the displacements of a point that stays on a circle, in its plane: around it, and about the point."""
-    on = _on_plane(circle, point.point)
-    kinds = JointKind.REVOLUTE, JointKind.SPHERICAL
-    frames = np.stack([frame(circle.point, circle.axis), frame(on, circle.axis)])
-    offset = float(np.linalg.norm(point.point - on))
-    return MateSet(Chain([_ALONE[kind] for kind in kinds], frames), None, swapped, offset)
+def _on_circle(
+    circle: MateFeature, point: MateFeature, swapped: bool, angle: float, length: float
+) -> tuple[MateSet, ...]:
+    """Find the displacements of a point that stays on a circle: in its plane, and at a distance from its axis."""
+    on = replace(point, point=_on_plane(circle, point.point))
+    offset = float(np.linalg.norm(point.point - on.point))
+    found = _plane_point(circle, on, angle, length), _line_point(circle, on, angle, length)
+    return tuple(MateSet(chain, kind, swapped, offset) for chain, kind in filter(None, found))
 
 
 def _on_cone(
@@ -176,8 +182,6 @@ FoundJoint = tuple[Chain, JointKind] | None
 
 _ALONE = {kind: movement for kind, movement in LOWER_PAIRS.values()}
 """Kinds of lower pairs -> their movements."""
-ANGLE_KEPT = tuple(_ALONE[kind] for kind in (JointKind.PLANAR, JointKind.PRISMATIC, JointKind.REVOLUTE))
-"""Movements of two parts that keep an angle: all slides, turns about the axis of part 1, turns about that of part 2."""
 
 
 def _plane_plane(one: MateFeature, other: MateFeature, angle: float, _: float) -> FoundJoint:
@@ -247,8 +251,11 @@ def _angle_kept(tag: str, first: MateFeature, second: MateFeature, angle: float)
         sine = np.linalg.norm(np.cross(first.axis, axis)) if aligned else abs(float(first.axis @ axis))
         tilt = float(np.arcsin(min(1.0, sine)))
         axis = axis if aligned else _across(first.axis, axis)
-    frames = [frame(first.point, first.axis)] * 2 + [frame(first.point, axis)] * (not aligned)
-    return MateSet(Chain(ANGLE_KEPT[: len(frames)], np.stack(frames)), None, tilt=tilt)
+    axis1, axis2 = frame(first.point, first.axis), frame(first.point, axis)
+    if aligned:
+        return MateSet(Chain([_ALONE[JointKind.SCHOENFLIES]], axis1[None]), JointKind.SCHOENFLIES, tilt=tilt)
+    turns = [_ALONE[kind] for kind in (JointKind.SCHOENFLIES, JointKind.REVOLUTE)]
+    return MateSet(Chain(turns, np.stack([axis1, axis2])), JointKind.CONSTANT_ANGLE, tilt=tilt)
 
 
 def _state(letter: str, *frames: Transform, region: str | None = None) -> tuple[Chain, JointKind]:
