@@ -22,6 +22,9 @@ boxes sweep is taken off the bound of every pair of boxes below. For 361 poses o
 45 s of a processor, 0.03 took 18 and 0.01 took 13; for a four-bar 0.03 and less took a quarter of what a tenth did."""
 _AT_ONCE = 1 << 13
 """Items whose boxes are gathered at once: their arrays stay in the cache of a core."""
+_MAX_ITEMS = 1 << 16
+"""Items that are split at once, where all are followed: solids with faces in a small distance all over, as a rod in a
+tube, have tens of millions."""
 _NEARER = 1e-9
 """Share of a distance by which a pair of triangles must be nearer to be worth looking at: many pairs of two parallel
 faces are equally near."""
@@ -69,25 +72,39 @@ class _Search:
         return np.stack([which[poses], np.zeros_like(poses), np.zeros_like(poses)], axis=-1)
 
     def follow(self, items: np.ndarray, beam: int | None) -> None:
-        """Split items until they are single triangles that may be nearer, and measure these."""
+        """Split items until they are single triangles that may be nearer, and measure these.
+
+        Of too many items those of least bounds are followed to their triangles before the others: what these measure
+        leaves fewer of the others.
+        """
         one, other, intervals = self.one, self.other, self.intervals
-        limit = intervals.largest(self.limit) * (1 - _NEARER)
-        pairs, bounds = [np.zeros((0, 3), int)], [np.zeros(0)]
-        while len(items):
+        stack = [items]
+        while stack:
+            items = stack.pop()
+            limit = intervals.largest(self.limit) * (1 - _NEARER)
             pieces = np.array_split(items, len(items) // _AT_ONCE + 1)
             bound, in_time = np.concatenate([self._bounds(piece, limit) for piece in pieces], axis=1)
             near = bound < limit[items[:, 0]]
             if beam is not None:
                 near[near] = _rank(items[near, 0], bound[near]) < beam
-            in_time = in_time[near] > 0
-            items, bound = items[near], bound[near]
+            items, bound, in_time = items[near], bound[near], in_time[near] > 0
             leaves, single = one.is_leaf[items[:, 1]] & other.is_leaf[items[:, 2]], intervals.is_one[items[:, 0]]
             done = leaves & single
-            pairs.append(items[done])
-            bounds.append(bound[done])
-            items = split(one, other, intervals, items[~done], (~single & (leaves | in_time))[~done])
-        pairs, bound = np.concatenate(pairs), np.concatenate(bounds)
-        pose, first, second = intervals.middle[pairs[:, 0]], one.triangle[pairs[:, 1]], other.triangle[pairs[:, 2]]
+            self._measure_leaves(items[done], bound[done])
+            items, bound, in_time = items[~done], bound[~done], (~single & (leaves | in_time))[~done]
+            count = 1 if beam is not None else len(items) // _MAX_ITEMS + 1
+            if count > 1:
+                order = np.argsort(-bound, kind="stable")
+                items, in_time = items[order], in_time[order]
+            for some, halved in zip(np.array_split(items, count), np.array_split(in_time, count), strict=True):
+                if len(some):
+                    stack.append(split(one, other, intervals, some, halved))
+
+    def _measure_leaves(self, pairs: np.ndarray, bound: np.ndarray) -> None:
+        """Measure single triangles at single displacements, items with their bounds, that may be nearer."""
+        one, other = self.one, self.other
+        pose = self.intervals.middle[pairs[:, 0]]
+        first, second = one.triangle[pairs[:, 1]], other.triangle[pairs[:, 2]]
         rank = _rank(pose, bound)
         begin, size = 0, 1
         # the most promising of each displacement first: they lower the limit for the others

@@ -1,0 +1,49 @@
+"""Distances of solids that are near each other all over: right, and found with few items at once."""
+
+import numpy as np
+import pytest
+import trimesh
+
+from jaxkin.geometry import tree_distances
+from jaxkin.geometry.displaced import Displaced
+from jaxkin.geometry.tree_distances import distances
+from jaxkin.geometry.triangle_tree import triangle_tree
+
+SECTIONS, STACKS, GAP = 12, 6, 0.01
+
+
+def wall(radius):
+    """The wall of a prism about z, in many triangles: every one of a rod is as near to its tube as the others."""
+    heights = np.linspace(0.0, 4.0, STACKS)
+    mesh = trimesh.creation.revolve(np.stack([np.full(STACKS, radius), heights], axis=-1), sections=SECTIONS)
+    return triangle_tree(np.array(mesh.triangles), np.zeros(len(mesh.triangles), int))
+
+
+@pytest.fixture(scope="module")
+def solids():
+    return wall(1.0), wall(1.0 + GAP)
+
+
+def slid(solids, at_once, monkeypatch):
+    """The distances of a rod that slides in its tube, and the largest number of items that were split at once."""
+    largest = [0]
+
+    def split(one, other, intervals, items, in_time):
+        largest[0] = max(largest[0], len(items))
+        return original(one, other, intervals, items, in_time)
+
+    original = tree_distances.split
+    monkeypatch.setattr(tree_distances, "_MAX_ITEMS", at_once)
+    monkeypatch.setattr(tree_distances, "split", split)
+    shift = np.outer(np.linspace(-0.5, 0.5, 3), [0.0, 0.0, 1.0])
+    return distances(*solids, Displaced(np.tile(np.eye(3), (3, 1, 1)), shift), 0.5), largest[0]
+
+
+def test_a_rod_in_a_tube_is_as_near_all_over(solids, monkeypatch):
+    """Sides of two prisms with the same number of sides are parallel: the gap times the cosine of half a section."""
+    expected = GAP * np.cos(np.pi / SECTIONS)
+    found, most = slid(solids, 1 << 30, monkeypatch)
+    np.testing.assert_allclose(found, expected, rtol=1e-8)  # pairs nearer by less than 1e-9 of it are not looked for
+    few, bounded = slid(solids, 200, monkeypatch)
+    np.testing.assert_allclose(few, expected, rtol=1e-8)
+    assert bounded <= 200 < most
