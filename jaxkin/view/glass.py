@@ -6,12 +6,12 @@ from collections.abc import Sequence
 from itertools import product
 
 import numpy as np
-from jaxtyping import Float, UInt8
+from jaxtyping import Bool, Float, UInt8
 
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector, frame
 from jaxkin.view.camera import View, choose_view, thumbnail
-from jaxkin.view.illustration import SUPERSAMPLING, Canvas, draw
+from jaxkin.view.illustration import PAPER, SUPERSAMPLING, Canvas, draw
 from jaxkin.view.sheet import Color
 
 WIDTH = 1300
@@ -63,23 +63,33 @@ def see_through(
     from PIL import Image
 
     solid = draw(canvas, [part.triangles for part in parts], colors)
-    image = PALE + (1 - PALE) * solid.color
+    image = solid.color  # blended in place: a picture has tens of millions of pixels drawn
+    image *= 1 - PALE
+    image += PALE
     image[~solid.present] = 1.0
     image[solid.crease] *= 0.8
     image[solid.outline] *= 0.45
-    if len(parts) <= THROUGH:
-        for part in parts:
-            alone = draw(canvas, [part.triangles], [color])
-            hidden = (alone.outline | alone.crease) & (alone.depth < solid.depth - 1.0)
-            image[hidden] *= 0.8
+    for part in parts if len(parts) <= THROUGH else ():
+        image[_hidden_edges(canvas, part, solid.depth)] *= 0.8
     if areas:
         layer = draw(canvas, areas, [color] * len(areas))
         front = layer.depth >= solid.depth - 1e-3 * canvas.width * SUPERSAMPLING
-        strength = np.where(front, 0.8, 0.42)[..., None]
-        image = np.where(layer.present[..., None], (1 - strength) * image + strength * layer.color, image)
+        for where, strength in ((layer.present & front, 0.8), (layer.present & ~front, 0.42)):
+            image[where] = (1 - strength) * image[where] + strength * layer.color[where]
         rim = layer.outline & ~layer.present
-        image[rim] = 0.4 * image[rim] + 0.6 * np.array(color)
-    return np.asarray(Image.fromarray((255 * np.clip(image, 0, 1) + 0.5).astype(np.uint8)).reduce(SUPERSAMPLING))
+        image[rim] = 0.4 * image[rim] + 0.6 * np.array(color, np.float32)
+    np.clip(image, 0, 1, out=image)
+    image *= 255
+    image += 0.5
+    return np.asarray(Image.fromarray(image.astype(np.uint8)).reduce(SUPERSAMPLING))
+
+
+def _hidden_edges(
+    canvas: Canvas, part: Part, depth: Float[np.ndarray, "height width"]
+) -> Bool[np.ndarray, "height width"]:
+    """Find the pixels of the edges of a part that are behind what is drawn at some depth."""
+    alone = draw(canvas, [part.triangles], [PAPER])
+    return (alone.outline | alone.crease) & (alone.depth < depth - 1.0)
 
 
 def oblique_view(parts: Sequence[Part], fixed: Sequence[str]) -> View:
