@@ -17,5 +17,5 @@
 
 Files of unknown origin are read within bounds: in processes of their own (`sandbox`, `guardian`, `time_limit`,
 `step_convert`, `step_worker`, `mesh_worker`), or by readers of few words (`xml_tree`, `yaml_subset`). `names`,
-`numbers`, `toml_text` and `gltf_colors` are about single values.
+`numbers`, `toml_text` and `gltf_colors` are about single values, `odd_sizes` about parts of another unit.
 """

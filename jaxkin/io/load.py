@@ -18,6 +18,7 @@ from jaxkin.geometry.units import check_unit
 from jaxkin.io.exports import read_exported
 from jaxkin.io.mechanism_file import MECHANISM_SUFFIX
 from jaxkin.io.mesh import MESHES, read_mesh
+from jaxkin.io.odd_sizes import with_odd_sizes_noted
 from jaxkin.io.robot_files import ROBOT_ROOTS, ROBOT_SUFFIXES, read_robot
 from jaxkin.io.saved_mechanism import read_mechanism
 from jaxkin.io.step import read_step
@@ -113,7 +114,7 @@ def _from_file(
         exported = replace(exported, notes=(*exported.notes, *twice))
         return Assembly(parts, _agreed({name: said}, unit), name, exported)
     parts, said = _read(path, seconds, progress=progress)
-    return Assembly(_without_twins(parts, name), _agreed({name: said}, unit), name)
+    return Assembly(with_odd_sizes_noted(_without_twins(parts, name)), _agreed({name: said}, unit), name)
 
 
 def _from_parts(
@@ -137,7 +138,8 @@ def _from_parts(
     if twins := next(_twins(tuple(parts)), None):
         one, other = (part.name for part in twins)
         raise ValueError(f"the parts {one!r} and {other!r} are the same solid in the same place: leave one out")
-    return Assembly(tuple(parts), agreed, ", ".join(Path(file).name for file in source.values()))
+    names = ", ".join(Path(file).name for file in source.values())
+    return Assembly(with_odd_sizes_noted(tuple(parts)), agreed, names)
 
 
 def _read(
