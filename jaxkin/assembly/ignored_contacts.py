@@ -81,6 +81,8 @@ def _instead(sides: Sequence[Sides], beside: Collection[frozenset[str]], one: st
     """Write the end of the message: what a misspelt side may be meant for, or what the first side does touch."""
     parts = dict.fromkeys([*(part for pair in sides for part, _ in pair), *sorted(frozenset().union(*beside))])
     known = dict.fromkeys([*(name for pair in sides for side in pair for name in side), *parts])
+    if not known:
+        return "; no two parts touch each other"
     for name in (one, other):
         if name not in known:
             return closest(name, known) or nearest(name, parts)

@@ -67,7 +67,7 @@ def describe_mechanism(mechanism: Mechanism, verbose: bool = False) -> str:
         head = f"Doubtful: {len(rows)} of {len(joints)} joints, the least certain first"
         lines += ["", f"{head}; jaxkin inspect --study tries the other readings", *(shortened(rows) if brief else rows)]
     if mechanism.notes:
-        notes = grouped(((kind_of(note.rpartition(": ")[2]), note) for note in mechanism.notes), not brief)
+        notes = grouped(((kind_of(note.rpartition(": ")[2]), note) for note in mechanism.notes), verbose)
         lines += ["", "Notes:", *(f"  {note}" for note in notes)]
     return "\n".join(lines)
 
@@ -155,6 +155,11 @@ def _what_makes_it_one(mechanism: Mechanism) -> str:
     inferred = [kind for kind in kinds if kind not in (EvidenceKind.USER, EvidenceKind.EXPORT)]
     if not inferred:
         return " Its file has them so: see the notes." if EvidenceKind.EXPORT in kinds else ""
+    if all(kind is EvidenceKind.NEAREST for kind in inferred):
+        return (
+            " Nothing ties them: none touches another, so all stay at rest. Put them together in the CAD system, as "
+            "they touch when assembled, or write the joints: joints=[jk.revolute(...)]."
+        )
     count = f"{counted(len(inferred), 'inference')} {'makes' if len(inferred) == 1 else 'make'} it so"
     return (
         f" {count}: see the notes. ignore=[(part, part)] takes back that of two parts, infer=False all; "
@@ -166,7 +171,7 @@ def _why_it_cannot_move(mechanism: Mechanism, freedoms: int) -> list[str]:
     said = "It cannot move."
     if freedoms:
         what = "its freedom is" if freedoms == 1 else f"its {freedoms} freedoms are"
-        said = f"Nothing can move but parts about themselves: {what} idle or of parts that only spin."
+        said = f"Nothing can move but parts by themselves: {what} idle or of parts that move nothing else."
     ways = mechanism.blocking_contacts()
     if not ways:
         if not mechanism.contacts:

@@ -93,7 +93,8 @@ class Mobility(Result):
         below = [] if inline else [f"  idle: {each}" for each in told[:_MOST_IDLE]]
         freedoms = counted(self.freedoms, "freedom")
         if self.spinning:
-            freedoms += f" ({self.spins} of them of parts that only spin: {listed(self.spinning)})"
+            only = "only spin" if self.spins == len(self.spinning) else "only turn or slide by themselves"
+            freedoms += f" ({self.spins} of them of parts that {only}: {listed(self.spinning)})"
         if not inline and len(told) > _MOST_IDLE:
             below.append(f"  and {len(told) - _MOST_IDLE} more: see .idle_motions")
         return "\n".join([f"{freedoms}{idle}, {counted(self.redundant, 'redundant equation')}", *below])

@@ -116,7 +116,7 @@ def test_what_cannot_move_is_told_from_what_moves_about_itself():
     spinning = bars()
     assert (spinning.mobility().freedoms, spinning.mobility().useful) == (1, 0)
     assert "cannot move" not in str(spinning)
-    assert "Nothing can move but parts about themselves: its freedom is idle" in str(spinning)
+    assert "Nothing can move but parts by themselves: its freedom is idle" in str(spinning)
     stuck = Mechanism.build(fixed=["ground"], joints=[joint for joint in spinning.all_joints if joint.name in "ABC"])
     assert stuck.mobility().freedoms == 0 and "It cannot move. It could without one of these" in str(stuck)
 

@@ -37,7 +37,7 @@ def test_fasteners_are_named_and_the_arm_is_not(mechanism):
     assert mobility.spinning == FASTENERS
     assert (mobility.freedoms, mobility.spins, mobility.useful) == (7, 6, 1)
     assert mobility.idle == ()
-    assert "only spin: washer, screw, long screw, loose washer" in str(mobility)
+    assert "only turn or slide by themselves: washer, screw, long screw, loose washer" in str(mobility)
 
 
 def test_they_close_no_loops_and_rest(mechanism):

@@ -262,4 +262,4 @@ def test_why_a_robot_does_not_move_speaks_of_no_contacts(tmp_path):
     text = """<mujoco><worldbody><body name="trunk"><freejoint/><geom size="0.1"/><body name="leg"><joint name="hip"/>
     <geom size="0.1"/></body></body></worldbody></mujoco>"""
     said = str(load(tmp_path, text).mechanism(fixed=["leg"]))
-    assert "Nothing can move but parts about themselves" in said and "contact" not in said
+    assert "Nothing can move but parts by themselves" in said and "contact" not in said
