@@ -68,7 +68,9 @@ class Proposal:
         more = len(told) - _TOLD
         names = " and ".join(told) if more <= 0 else f"{', '.join(told[:_TOLD])} and {more} more"
         moves = "one joint moves" if self.moving == 1 else f"{self.moving} joints move"
-        spin = f", {len(self.wheels)} of which only turn wheels or rollers" if self.wheels else ""
+        only = "one of which only turns a wheel or a roller"
+        only = only if len(self.wheels) == 1 else f"{len(self.wheels)} of which only turn wheels or rollers"
+        spin = f", {only}" if self.wheels else ""
         return f"with {lines} it has {count} in {self.bodies} bodies{spin}, and {names} can be driven; {moves}"
 
 

@@ -77,7 +77,8 @@ class Clashes(Result):
         named = pose_names(self.motion)
         clash = np.flatnonzero(self.clashing.any(axis=1)).tolist()
         told = f"{known} closed poses of {poses}" if known < poses else f"{poses} poses"
-        lines = [f"{len(self.pairs)} pairs of parts come near each other in {told}: {len(clash)} clash"]
+        count = "1 pair of parts comes" if len(self.pairs) == 1 else f"{len(self.pairs)} pairs of parts come"
+        lines = [f"{count} near each other in {told}: {len(clash)} clash"]
         if known < poses:
             lines.append(f"  whether parts clash at the {poses - known} other poses is not known")
         if self.first is not None:

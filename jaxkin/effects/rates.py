@@ -107,8 +107,9 @@ class Rates(Result):
         for name, unit, row in zip(names, units, rows, strict=True):
             if np.isfinite(row).any():
                 low, high = int(np.nanargmin(row)), int(np.nanargmax(row))
-                said = f"from {row[low]:.4g} at {named(low)} to {row[high]:.4g} at {named(high)}"
-                said = f"{row[low]:.4g} at all poses" if row[low] == row[high] and np.isfinite(row).all() else said
+                least, most = f"{row[low]:.4g}", f"{row[high]:.4g}"
+                said = f"from {least} at {named(low)} to {most} at {named(high)}"
+                said = f"{least} at all poses" if least == most and np.isfinite(row).all() else said
                 lines.append(f"  {name} [{unit}]: {said}")
         if unknown := int(np.isnan(rows).any(axis=0).sum()):
             lines.append(f"  not known at {unknown} of {len(self.motion)} poses")

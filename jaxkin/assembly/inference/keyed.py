@@ -165,9 +165,9 @@ def seated_on_squares(known: Known, fastening: Collection[str]) -> list[Inferenc
 def _on_polygon(known: Known, shaft: str, axis: CommonAxis, fastening: Collection[str]) -> Iterator[tuple[str, float]]:
     """Yield the hubs on a polygon of a shaft, between faces of the shaft and of fasteners on it, with their play."""
     on = {part for each in known.axes if shaft in each.parts for part in each.parts if part in fastening}
-    ends = [stop for part in {shaft, *on} for stop in known.measured.stops(known.solids[part], axis.other)]
     for hub in known.measured.beside(known.solids[shaft]):
         if hub.name not in on and is_on_polygon(hub, known.solids[shaft], axis.other.point, axis.other.axis):
+            ends = [stop for part in {shaft, *on} for stop in known.measured.stops(known.solids[part], axis.other)]
             room = play(ends, known.measured.stops(hub, axis.other), axis.other.radius)
             if room is not None and room <= MAX_LIFT * axis.other.radius:
                 yield hub.name, room
