@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 DPI = 150
 """Dots an inch of figures that are saved."""
+_NO_LETTER = "Glyph .* missing from font"
+"""What matplotlib warns of, once a letter, where the font lacks letters of names."""
 
 
 def check_file(path: Path, kind: str) -> int:
@@ -65,7 +67,7 @@ def save_figure(figure: Figure, path: Path) -> Path:
     drawn as a box. Raises FileNotFoundError as `whole` does.
     """
     with whole(path) as draft, catch_warnings():
-        filterwarnings("ignore", "Glyph .* missing from font")
+        filterwarnings("ignore", _NO_LETTER)
         # the numbers along an axis follow from its size, and the layout makes room for those before it: without this
         # pass labels of axes of one scale may be cut off
         figure.draw_without_rendering()
@@ -74,11 +76,14 @@ def save_figure(figure: Figure, path: Path) -> Path:
 
 
 def text_width(text: str, size: float, weight: str = "normal") -> float:
-    """Measure a line of text of letters of a size in points, in pixels of a picture."""
+    """Measure a line of text of letters of a size in points, in pixels of a picture; a letter that the font does not
+    have counts as the box that is drawn for it."""
     from matplotlib.font_manager import FontProperties
     from matplotlib.textpath import text_to_path
 
-    width, _, _ = text_to_path.get_text_width_height_descent(text, FontProperties(size=size, weight=weight), False)
+    with catch_warnings():
+        filterwarnings("ignore", _NO_LETTER)
+        width, _, _ = text_to_path.get_text_width_height_descent(text, FontProperties(size=size, weight=weight), False)
     return width * DPI / 72
 
 

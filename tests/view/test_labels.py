@@ -36,3 +36,9 @@ def test_a_text_is_cut_to_its_measured_width(text):
     cut = fitted(text, whole / 2, 10, "bold")
     assert cut[-1] == "…" and text.startswith(cut[:-1])
     assert text_width(cut, 10, "bold") <= whole / 2 < text_width(f"{text[: len(cut)]}…", 10, "bold")
+
+
+def test_letters_that_the_font_lacks_are_measured_without_a_word():
+    """Names in Chinese, and a letter that combines with the one before it: a warning is an error in tests."""
+    assert text_width("支架", 10) > text_width("", 10) == 0
+    assert text_width("crank \u0366", 10) >= text_width("crank", 10)
