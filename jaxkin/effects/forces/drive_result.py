@@ -88,8 +88,8 @@ def _range(values: np.ndarray, unit: str, named: Callable[[int], str]) -> str:
     if not np.isfinite(values).any():
         return "unknown"
     low, high = int(np.nanargmin(values)), int(np.nanargmax(values))
+    least, most = (f"{values[end] + 0.0:.4g} {unit}" for end in (low, high))  # + 0.0: none is -0
+    if least == most and np.isfinite(values).all():
+        return f"{least} at all poses"
     mean = np.sqrt(np.nanmean(values**2))
-    return (
-        f"from {values[low]:.4g} {unit} at {named(low)} to {values[high]:.4g} {unit} at {named(high)}, "
-        f"root mean square {mean:.4g} {unit}"
-    )
+    return f"from {least} at {named(low)} to {most} at {named(high)}, root mean square {mean:.4g} {unit}"

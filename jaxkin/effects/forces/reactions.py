@@ -16,7 +16,7 @@ from jaxtyping import Array, Float, Int
 from jaxkin._grouped import MAX_LINES
 from jaxkin._guesses import Result
 from jaxkin._named import Named
-from jaxkin._names import listed, nearest
+from jaxkin._names import counted, listed, nearest
 from jaxkin.effects.angle_locks import not_determined
 from jaxkin.effects.forces.acting import (
     STANDARD_GRAVITY,
@@ -91,7 +91,7 @@ class Reactions(Result):
 
     def __str__(self) -> str:
         closed = np.asarray(self.motion.closed)
-        lines = [f"Reactions of {len(self.forces)} joints in {closed.sum()} closed poses of {len(closed)}"]
+        lines = [f"Reactions of {counted(len(self.forces), 'joint')} in {closed.sum()} closed poses of {len(closed)}"]
         forces = {name: np.linalg.norm(np.asarray(rows), axis=1) for name, rows in self.forces.items()}
         if not closed.any():
             return lines[0]
