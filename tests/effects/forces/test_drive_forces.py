@@ -169,13 +169,6 @@ def test_poses_that_are_not_closed_are_nan_and_it_prints_draws_and_saves(tmp_pat
 
 
 @pytest.mark.long
-def test_one_force_in_all_poses_is_said_once(motion):
-    """What works against the driven hinge itself is what the drive delivers, and nothing is no negative zero."""
-    for load, said in ((-2.0, "A.phi  2 N m at all poses"), (0.0, "A.phi  0 N m at all poses")):
-        assert said in str(jk.drive_forces(motion, applied=jk.joint_load("A", load)))
-
-
-@pytest.mark.long
 def test_what_makes_no_sense_is_refused(motion, masses):
     with pytest.raises(ValueError, match=r"nothing acts: give jk.masses"):
         jk.drive_forces(motion)
