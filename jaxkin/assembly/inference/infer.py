@@ -74,7 +74,7 @@ from jaxkin.assembly.inference.slotted import clamped_on_slots
 from jaxkin.assembly.inference.spacers import clamped_standoffs, spacers
 from jaxkin.assembly.inference.spreaders import spreaders
 from jaxkin.assembly.inference.standing import butting_pins, embedded_pins, standing_rods
-from jaxkin.assembly.inference.stopped_joint import StoppedJoint
+from jaxkin.assembly.inference.stopped_joint import StoppedJoint, near_first
 from jaxkin.assembly.inference.tabs import tabs_in_slots
 from jaxkin.assembly.inference.tapers import self_holding_tapers
 from jaxkin.assembly.inference.tight_ends import bolted_ends, pressed_pins, riveted_studs, screwed_on_ends
@@ -121,7 +121,9 @@ def infer(known: Known) -> Inferred:
     body = known.body
     replacing = [each for each in stopped.joined if each.replaces_slide]
     replacing = [each for each in replacing if len({body[part] for part in each.inference.parts}) > 1]
-    stops = [[each.inference for each in replacing if each.stop is level] for level in Stop]
+    levels = [[each for each in replacing if each.stop is level] for level in Stop]
+    levels[Stop.FACES : Stop.FACES + 1] = near_first(levels[Stop.FACES])
+    stops = [[each.inference for each in level] for level in levels]
     return Inferred(known.found, stops, frozenset(fastening), known.taken_back)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -14,6 +15,10 @@ from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.slide_stops import Stop, slide_doubt
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
+
+NEAR_PLAY = 0.5
+"""Play between faces along the axis, over the radius, up to which it is that of a hinge: tenths of a millimetre beside
+a pin. What slides on purpose may have a stroke of no more than its own diameter, as the ram of a press."""
 
 
 class StoppedJoint(NamedTuple):
@@ -54,6 +59,16 @@ def joint_about(
     faced = stop is Stop.FACES or (stop is Stop.SHORT and room is not None)
     replaces = exact or not (faced or stop is Stop.NONE)
     return StoppedJoint(Inference.of(joint, evidence), stop, replaces)
+
+
+def near_first(stopped: Sequence[StoppedJoint]) -> tuple[list[StoppedJoint], list[StoppedJoint]]:
+    """Split joints whose slide faces stop into those with little play, and those whose play may be a stroke."""
+    near, far = list[StoppedJoint](), list[StoppedJoint]()
+    for each in stopped:
+        sizes = dict(each.inference.evidence.sizes)
+        is_near = sizes.get("play", 0.0) <= NEAR_PLAY * sizes.get("radius", 0.0)
+        (near if is_near else far).append(each)
+    return near, far
 
 
 def _bores_told(pair: CommonAxis) -> str:

@@ -7,8 +7,9 @@ Each is drawn with a known truth, at a place, a size and in an order at random: 
 import numpy as np
 import pytest
 
+from jaxkin.geometry.part import moved
 from jaxkin.geometry.surfaces import Cylinder, Plane
-from reference.round_parts import anywhere, assembly, block, kind_of, moving, owners, part, pin, ring
+from reference.round_parts import SEEDS, across, anywhere, assembly, block, kind_of, moving, owners, part, pin, ring
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -94,3 +95,39 @@ def test_a_finger_in_a_slot_guides_a_rod_that_fits_its_bush_exactly(seed, play, 
     rod = part("rod", pin(5.0, -45, 60), block((-3, 4, 20), (3, 35, 26)))
     mechanism = anywhere(assembly(base, rod), seed).mechanism(fixed=["base"])
     assert kind_of(mechanism, "base", "rod") == ("prismatic" if guided else "cylindrical")
+
+
+def press_with_a_lever(stroke):
+    """A lever on the base, tied by a link to a ram and by another one to a rocker: pins that fit, and lugs, collars
+    and a ram between its stops."""
+    at, to = (60.0, 40.0), (150.0, 0.0)
+    ram_pin = [pin(4.0, 11.0, 25.0, to), *(block((143, -7, low), (165, 7, low + 2.5)) for low in (11.0, 22.5))]
+    ends = [pin(14.0, 210 - stroke / 2 - 9, 210 - stroke / 2), pin(14.0, 230 + stroke / 2, 239 + stroke / 2)]
+    ram = part("ram", *ram_pin, _at_height(across(pin(10.0, 164, 300), *ends), 18.0))
+    bush = _at_height(across(ring(10.0, 20.0, 210, 230)), 18.0)
+    pivots = [pin(4.0, -10, 30), pin(4.0, -10, 30, (-60.0, 100.0))]
+    base = part("base", block((-90, -40, -20), (260, 120, -10)), block((210, -12, -10), (230, 12, 0)), bush, *pivots)
+    ears = [piece for each in (at, (0.0, 40.0)) for piece in (pin(4.0, 5, 26, each), pin(7.0, 22.5, 26, each))]
+    plate = ring(4.0, 9.0, 5, 13), block((-4, 9, 5), (4, 40, 13)), block((4, 30, 5), (60, 44, 13))
+    lever = part("lever", *plate, *ears)
+    rod = part("rod", ring(4.0, 8.0, 13, 22.5, at), ring(4.0, 8.0, 14, 22, to), block((68, 36, 14), (146, 40, 22)))
+    link = part("link", ring(4.0, 8.0, 14, 22, (0.0, 40.0)), block((-3, 48, 14), (3, 92, 22)), pin(4.0, 14, 40, (0, 100)))
+    rocker = part("rocker", ring(4.0, 8.0, 24, 32, (0.0, 100.0)), ring(4.0, 8.0, 24, 32, (-60.0, 100.0)))
+    return assembly(base, lever, rod, ram, link, rocker)
+
+
+def _at_height(faces, height):
+    """Pieces moved along z."""
+    pose = np.eye(4)
+    pose[2, 3] = height
+    return [(face.surface, face.triangles) for face in moved(part("drawn", faces), pose).faces]
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_faces_with_a_stroke_between_them_leave_a_ram_to_slide_where_others_stop_hinges(seed):
+    """The lever slides with its rod along the pins of all others by exact contacts, and near faces stop that. To stop
+    the ram as well, whose stops are its own diameter apart, would lock all."""
+    mechanism = anywhere(press_with_a_lever(stroke=20.0), seed).mechanism(fixed=["base"])
+    assert kind_of(mechanism, "base", "ram") == "cylindrical"
+    assert kind_of(mechanism, "lever", "link") == kind_of(mechanism, "rod", "ram") == "revolute"
+    assert mechanism.mobility().useful == 1
