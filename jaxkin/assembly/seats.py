@@ -10,6 +10,7 @@ import numpy as np
 from jaxkin.assembly.guides import is_guide
 from jaxkin.assembly.inference.bores import NEAR_ANGLE, bores
 from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.lead_nuts import is_lead_screw
 from jaxkin.geometry.part import size
 from jaxkin.geometry.pose import Transform, Vector
 from jaxkin.joints.evidence import Evidence, EvidenceKind
@@ -44,7 +45,7 @@ def seats_of(mechanism: Mechanism, inexact: bool, bearings: Collection[str]) -> 
     body that would hold two others to each other which move by a joint, or, where they are flat, over a roller, are not
     both taken, nor a seat of a body that slides in a third one on a body that turns there. A carriage on a rail is a
     guide, though nothing that is drawn moves with it. What drives turns in what is fixed, a pin between the cheeks of a
-    fork does not.
+    fork does not; a lead screw turns in what it moves.
     """
     if not useful_freedoms(mechanism):
         return []
@@ -52,11 +53,14 @@ def seats_of(mechanism: Mechanism, inexact: bool, bearings: Collection[str]) -> 
     owner = body_of_parts(mechanism.bodies)
     useful = [joint.parts for joint in mechanism.all_joints if {*joint.full_names} - idle]
     over_rollers = _over_rollers(mechanism, idle, owner)
+    ground = {owner.get(part, part) for part in mechanism.fixed}
+    threads = [joint.parts for joint in mechanism.all_joints if is_lead_screw(joint)]
+    on_threads = {owner[part] for parts in threads for part in parts} - ground
     result = []
     for joint in mechanism.all_joints:
         flat = joint.kind in (JointKind.PRISMATIC, JointKind.PLANAR)
-        ground = {owner.get(part, part) for part in mechanism.fixed}
         turning = inexact and joint.kind is JointKind.REVOLUTE
+        turning = turning and not {owner[part] for part in joint.parts} & on_threads
         if turning and {owner[part] for part in joint.parts} & ground:
             turning = _is_pin_of_fork(mechanism, joint, owner, ground)
         screwed = turning and not {*joint.parts} & {*bearings} and _is_in_line(mechanism, joint, owner)

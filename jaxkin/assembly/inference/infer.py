@@ -37,7 +37,7 @@ from jaxkin.assembly.inference.hinges import hinges
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.keyed import flatted_hubs, keyed_hubs, seated_on_squares, slit_hubs, squared_hubs
 from jaxkin.assembly.inference.known import Known, Pair
-from jaxkin.assembly.inference.lead_nuts import lead_nuts, on_lead_screws
+from jaxkin.assembly.inference.lead_nuts import lead_nuts, on_lead_screws, on_travelling_screws
 from jaxkin.assembly.inference.link_ends import hinged_ends
 from jaxkin.assembly.inference.lock_nuts import locked_threads
 from jaxkin.assembly.inference.lying_on_one import lying_on_one
@@ -255,6 +255,7 @@ def _take_joints_between_bodies(known: Known, fastening: Collection[str]) -> _St
     known.take(slot_joints(known, joined))
     known.take(loose_slides(known))
     known.take(carriages(known))
+    known.take(on_travelling_screws(known))
     return _StoppedJoints(joined, guided)
 
 

@@ -1,4 +1,5 @@
-"""Nuts of lead screws: flanged nuts that screws hold to a carriage, on a long rod beside the guides of the carriage."""
+"""Nuts of lead screws: flanged nuts that screws hold to a carriage, on a long rod beside the guides of the carriage,
+and those of screws that turn in what slides along them."""
 
 from __future__ import annotations
 
@@ -11,10 +12,13 @@ from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.fasteners import beside
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.moves import moves
 from jaxkin.assembly.inference.sleeves import flanged_to
 from jaxkin.assembly.inference.stop_faces import WIDER
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
+from jaxkin.joints.joint import Joint
+from jaxkin.joints.kinds import JointKind
 
 MINOR = 0.31
 """Radius of a lead screw less that of its nut, over that of the screw, at most: at the minor diameter it is pitch over
@@ -82,17 +86,51 @@ def on_lead_screws(known: Known, found: list[LeadNut]) -> list[Inference]:
         owners = {body[screw.part], body[nut.part]}
         if any({body[part] for part in each.parts} == owners for each in known.contacts):
             continue
-        parts = known.in_order((screw.part, nut.part))
-        name = "-".join(parts)
-        point, axis = ((np.round(each, DECIMALS) + 0.0).tolist() for each in (nut.point, screw.axis))
-        line = f"jk.screw({name!r}, {parts[0]!r}, {parts[1]!r}, point={point}, axis={axis}, pitch=...)"
-        text = f"the rod of radius {screw.radius:.4g} goes through the hole of {nut.radius:.4g} of {nut.part!r}, whose "
-        text += f"flange is on {carriage!r}, which {guide!r} guides: a lead screw whose pitch is not drawn; say "
-        text += f"joints=[{line}] with the advance per turn"
-        sizes = (("radius", screw.radius), ("clearance", nut.radius - screw.radius))
-        joint = pairs.cylindrical(name, *parts, point=nut.point, axis=screw.axis)
-        result.append(Inference.of(joint, Evidence(EvidenceKind.CLEARANCE, sizes, text)))
+        result.append(_on_thread(known, screw, nut, f"whose flange is on {carriage!r}, which {guide!r} guides"))
     return result
+
+
+def on_travelling_screws(known: Known) -> list[Inference]:
+    """Make cylindrical joints of threads drawn plain, thicker than their nut, where a third body says that they move on
+    each other: the screw turns in it about its axis, and the nut slides on it along that, as in a vise.
+
+    A thread that is held in its nut would lock that slide.
+    """
+    body, result = known.body, []
+    tied = {*known.jointed, *(frozenset(body[part] for part in each.parts) for each in known.contacts)}
+    for pair in known.axes:
+        screw, nut = pair.one, pair.other
+        owners = frozenset(body[part] for part in pair.parts)
+        if not pair.threaded or len(owners) < 2 or owners in tied or -pair.clearance > MINOR * screw.radius:
+            continue
+        one, other = body[screw.part], body[nut.part]
+        others = [each for each in dict.fromkeys(body.values()) if each not in owners]
+        between = [each for each in others if moves(known, one, each, screw, turning=True)]
+        between = [each for each in between if moves(known, other, each, screw, turning=False)]
+        if between:
+            why = f"and turns in {between[0]!r}, which slides along it on {other!r}"
+            result.append(_on_thread(known, screw, nut, why))
+            tied.add(owners)
+    return result
+
+
+def is_lead_screw(joint: Joint) -> bool:
+    """Tell whether a joint is that of a lead screw, drawn thicker than its nut as a thread is."""
+    fit = joint.evidence.relative_clearance if joint.evidence else None
+    return joint.kind is JointKind.CYLINDRICAL and fit is not None and fit <= -THREAD
+
+
+def _on_thread(known: Known, screw: Bore, nut: Bore, why: str) -> Inference:
+    """Make the cylindrical joint of a screw with its nut, and tell the line of the screw joint."""
+    parts = known.in_order((screw.part, nut.part))
+    name = "-".join(parts)
+    point, axis = ((np.round(each, DECIMALS) + 0.0).tolist() for each in (nut.point, screw.axis))
+    line = f"jk.screw({name!r}, {parts[0]!r}, {parts[1]!r}, point={point}, axis={axis}, pitch=...)"
+    text = f"the rod of radius {screw.radius:.4g} goes through the hole of {nut.radius:.4g} of {nut.part!r}, {why}: a "
+    text += f"lead screw whose pitch is not drawn; say joints=[{line}] with the advance per turn"
+    sizes = (("radius", screw.radius), ("clearance", nut.radius - screw.radius))
+    joint = pairs.cylindrical(name, *parts, point=nut.point, axis=screw.axis)
+    return Inference.of(joint, Evidence(EvidenceKind.CLEARANCE, sizes, text))
 
 
 def _goes_beyond(rod: Bore, hole: Bore) -> bool:

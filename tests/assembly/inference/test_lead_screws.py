@@ -6,7 +6,7 @@ Each is drawn with a known truth, at a place, a size and in an order at random: 
 import pytest
 
 import jaxkin as jk
-from reference.round_parts import SEEDS, anywhere, assembly, block, kind_of, owners, part, pin, ring
+from reference.round_parts import SEEDS, anywhere, assembly, block, kind_of, moving, owners, part, pin, ring
 
 
 def axis_with_a_flanged_nut(bore, screws):
@@ -92,3 +92,40 @@ def test_a_rod_on_which_a_bearing_is_a_roller_is_no_lead_screw(seated, told, see
     drawn = anywhere(assembly(frame, screw, carriage, nut, roller), seed, scaled_at_random=False)
     mechanism = drawn.mechanism(fixed=["frame"])
     assert any("lead screw" in note for note in mechanism.history) == told
+
+
+def vise(thread):
+    """A jaw that slides in the square channel of a body, with a screw that turns in it, in a nut of the body."""
+    channel = [block(*each) for each in (((-14, -14, 0), (14, -10, 60)), ((-14, 10, 0), (14, 14, 60)))]
+    channel += [block(*each) for each in (((-14, -10, 0), (-10, 10, 60)), ((10, -10, 0), (14, 10, 60)))]
+    body = part("body", *channel, ring(thread, 9.5, -10, 0), block((-60, -60, -10), (60, -14, 60)))
+    sides = [block(*each) for each in (((-10, -10, 30), (10, -7, 90)), ((-10, 7, 30), (10, 10, 90)))]
+    sides += [block(*each) for each in (((-10, -7, 30), (-7, 7, 90)), ((7, -7, 30), (10, 7, 90)))]
+    jaw = part("jaw", *sides, ring(4.0, 7.0, 80, 90), block((-10, 10, 70), (10, 40, 90)))
+    ends = pin(6.0, 90, 110), pin(6.0, 76, 80)
+    screw = part("screw", pin(4.0, -40, 90), *ends, block((6, -2, 94), (50, 2, 100)))
+    return assembly(body, jaw, screw)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(("thread", "found"), [(3.4, True), (2.0, False)])
+def test_a_screw_that_turns_in_a_jaw_is_on_the_thread_along_which_that_slides(thread, found, seed):
+    """The nut is a hole of the body itself; one of half the radius is no thread."""
+    mechanism = anywhere(vise(thread), seed).mechanism(fixed=["body"])
+    assert kind_of(mechanism, "jaw", "screw") == "revolute" and kind_of(mechanism, "body", "jaw") == "prismatic"
+    body = owners(mechanism)
+    kinds = [
+        str(joint.kind) for joint in moving(mechanism) if {body[part] for part in joint.parts} == {"body", "screw"}
+    ]
+    assert kinds == (["cylindrical"] if found else [])
+    assert any("pitch=...)" in note for note in mechanism.notes) == found
+    assert mechanism.mobility().useful == (1 if found else 2)  # the pitch couples both
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_screw_joint_of_a_vise_couples_its_screw_with_its_jaw(seed):
+    drawn = anywhere(vise(3.4), seed, scaled_at_random=False)
+    (note,) = (note for note in drawn.mechanism(fixed=["body"]).notes if "jk.screw(" in note)
+    said = note[note.index("joints=[") + len("joints=[") : note.index("pitch=...")]
+    mechanism = drawn.mechanism(fixed=["body"], joints=[eval(f"{said}pitch=5.0)", {"jk": jk})])
+    assert mechanism.mobility().useful == 1
