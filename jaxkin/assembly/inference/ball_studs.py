@@ -6,7 +6,7 @@ from collections.abc import Collection, Sequence
 
 import numpy as np
 
-from jaxkin.assembly.inference.axes import MAX_OFFSET
+from jaxkin.assembly.inference.axes import MAX_OFFSET, CommonAxis
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sockets import Socket
@@ -15,6 +15,9 @@ from jaxkin.geometry.pose import Vector
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.joints.kinds import JointKind
 
+MAX_STUD = 8.0
+"""Length of the stud of a ball from the middle of that to its far end, over its radius, at most: ball studs of
+DIN 71803 and of tie rods have 4 to 7, the rods of struts 15 and more."""
 _SPHERES = ("sphere", "sphere")
 """Surfaces of an exact contact of a ball with its socket."""
 
@@ -53,6 +56,22 @@ def held_studs(known: Known, joined: Sequence[StoppedJoint], fastening: Collecti
                 evidence = Evidence(EvidenceKind.FASTENER, each.inference.evidence.sizes, text)
                 result.append(Inference(joint.parts, evidence))
     return result
+
+
+def is_stud(known: Known, pair: CommonAxis) -> bool:
+    """Tell whether a pin ends in a ball on its axis that is in a socket of a third body, no farther from its far end
+    than a stud is long: the rods of cylinders and struts, which slide, are longer."""
+    body, (part, holder) = known.body, pair.parts
+    if pair.virtual:
+        return False
+    for socket in known.sockets:
+        ball = socket.ball
+        if ball.part == part and body[socket.hole.part] not in (body[part], body[holder]):
+            away = float((ball.centre - pair.one.point) @ pair.one.axis)
+            near = _is_on(socket, pair.one.point, pair.one.axis)
+            if near and abs(away) + pair.one.half <= MAX_STUD * pair.one.radius:
+                return True
+    return False
 
 
 def _is_bolted(known: Known, socket: Socket, parts: Sequence[str], fastening: Collection[str]) -> bool:

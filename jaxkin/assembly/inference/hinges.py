@@ -7,6 +7,7 @@ from collections.abc import Collection, Sequence
 import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis
+from jaxkin.assembly.inference.ball_studs import is_stud
 from jaxkin.assembly.inference.bores import NEAR_LENGTH, merged
 from jaxkin.assembly.inference.coaxial_features import CoaxialFeatures, coaxial_features
 from jaxkin.assembly.inference.contact_faces import shared_span
@@ -14,6 +15,7 @@ from jaxkin.assembly.inference.fasteners import Stack, beside
 from jaxkin.assembly.inference.heads import is_exposed
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
+from jaxkin.assembly.inference.motors import are_flanged
 from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.assembly.inference.stop_faces import MAX_AXIAL_PLAY, MAX_LIFT, between_bores, nearest, play, stands_across
 from jaxkin.assembly.inference.stopped_joint import StoppedJoint, joint_about
@@ -158,16 +160,18 @@ def _hinge(
     short = not pair.virtual and reach[1] - reach[0] < MIN_GUIDED * radius
     jams = short and room is not None
     centred = not far and not _is_inside(pair, found) and _is_centred(pair, middles)
+    flanged = near is not None and near <= MAX_AXIAL_PLAY * radius and are_flanged(known, pair)
     if exact:
         if fastened and near is not None and near <= MAX_LIFT * radius:
             return [joint_about(known, coaxial, Stop.ONE_FACE, near, room)]
-        stop = Stop.CENTRED if centred else Stop.SHORT if jams else None
+        stop = Stop.CENTRED if centred else Stop.SHORT if jams else Stop.BALL_STUD if is_stud(known, pair) else None
+        stop = Stop.FLANGES if stop is None and flanged else stop
         return [] if stop is None else [joint_about(known, coaxial, stop, 0.0, room)]
     if jams:
         return [joint_about(known, coaxial, Stop.SHORT, 0.0, room)]
     slides = joint_about(known, coaxial, Stop.NONE, None, room)
     stop = Stop.CENTRED if centred else Stop.NO_STROKE if _has_no_stroke(pair, reach) else None
-    stop = Stop.SHORT if stop is None and short else stop
+    stop = Stop.SHORT if stop is None and short else Stop.FLANGES if stop is None and flanged else stop
     return [slides] if pair.virtual or far or stop is None else [slides, joint_about(known, coaxial, stop, 0.0, room)]
 
 

@@ -6,6 +6,7 @@ from collections.abc import Collection, Sequence
 
 import numpy as np
 
+from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.bores import NEAR_LENGTH, SAME_ANGLE, SAME_LENGTH, Bore
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
@@ -17,6 +18,10 @@ from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 MIN_SCREWS = 2
 """Screw holes of the flange of a motor round its shaft, at least."""
+FLANGE_SCREWS = 3
+"""Screw holes in a circle round an axis that make a flange of what has them, at least: two are those of any lug."""
+MAX_FLANGE_SCREW = 0.2
+"""Radius of such holes over that of their circle, at most, as of a flange for screws."""
 
 
 def motor_shafts(known: Known, fastening: Collection[str]) -> list[Inference]:
@@ -43,6 +48,20 @@ def motor_shafts(known: Known, fastening: Collection[str]) -> list[Inference]:
             joint = pairs.revolute("-".join(parts), *parts, point=pin.point, axis=pin.axis)
             result.append(Inference.of(joint, evidence))
     return result
+
+
+def are_flanged(known: Known, pair: CommonAxis) -> bool:
+    """Tell whether both parts of a pin in its hole have screws in a circle round its axis, as a motor and the flange on
+    its shaft have: they carry a torque. What slides needs none, and has one thread on its end."""
+    if pair.virtual:
+        return False
+    for part in pair.parts:
+        circle = screw_holes(known.bores[part], pair.one)
+        if len(circle) < FLANGE_SCREWS:
+            return False
+        if circle[0].radius > MAX_FLANGE_SCREW * np.linalg.norm(_offset(circle[0], pair.one)):
+            return False
+    return True
 
 
 def _in_blind_holes(known: Known, fastening: Collection[str]) -> list[Inference]:

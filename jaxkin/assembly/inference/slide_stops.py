@@ -27,9 +27,13 @@ class Stop(IntEnum):
     """Nothing that is drawn; the pin and its holes have their middles in one place."""
     NO_STROKE = 5
     """Nothing that is drawn, but it is about as long as what it is in."""
-    SHORT = 6
+    BALL_STUD = 6
+    """Nothing that is drawn, but one of the two ends in a ball on the axis, which turns in its socket already."""
+    FLANGES = 7
+    """Nothing on the other side, but both have screws in a circle round the axis, as a motor and what it turns."""
+    SHORT = 8
     """Faces on both sides, but far away; the hole is too short to slide between them without jamming."""
-    TIGHT = 7
+    TIGHT = 9
     """Nothing that is drawn, but it fits exactly where something else on the same pin has play."""
 
 
@@ -37,6 +41,8 @@ _SLIDES = {
     Stop.ONE_FACE: ("on one side a fastener alone would stop its slide", Certainty.ONE_FACE),
     Stop.CENTRED: ("no face that is drawn stops its slide", Certainty.CENTRED),
     Stop.NO_STROKE: ("no face that is drawn stops its slide", Certainty.CENTRED),
+    Stop.BALL_STUD: ("no face that is drawn stops its slide", Certainty.CENTRED),
+    Stop.FLANGES: ("no face that is drawn stops its slide", Certainty.CENTRED),
     Stop.SHORT: ("only that its hole is short tells that it does not slide", Certainty.SHORT),
 }
 """Why a joint that is taken to turn only may slide, too, and how often such a joint did not."""

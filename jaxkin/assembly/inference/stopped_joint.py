@@ -86,6 +86,8 @@ def _told(stop: Stop, free: float | None, room: float | None) -> str:
         Stop.ONE_FACE: f"a face {free:.2g} away and the fastener stop its slide",
         Stop.CENTRED: "the pin and its holes have one middle, where it is taken to stay",
         Stop.NO_STROKE: "the pin is no longer than its hole, or little: taken to turn",
+        Stop.BALL_STUD: "the ball on its axis turns in a socket already: it is screwed or pressed in",
+        Stop.FLANGES: "both have screws in a circle round their axis, as a motor has: taken to turn",
         Stop.SHORT: f"its hole is shorter than wide and would jam on a slide{between}: taken to turn",
     }.get(stop, f"faces stop its slide, with a play of {free:.2g}")
 

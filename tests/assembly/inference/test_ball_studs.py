@@ -115,3 +115,14 @@ def test_a_loose_ball_rolls_in_what_turns(seed):
     assert "loose" in mechanism.mobility().spinning
     best = anywhere(assembly(base, LEVER, half, loose), seed).proposals()[0]
     assert not any("loose" in name for name in (*best.fixed, *best.drive))
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(("length", "slides"), [(12.0, False), (90.0, True)])
+def test_a_stud_that_fits_its_hole_exactly_does_not_slide_there_and_a_strut_does(seed, length, slides):
+    """No collar says so: the ball on its axis does, which a strut has as well, on the end of a long rod."""
+    stud = part("stud", pin(5.0, 12 - length, 12), pin(4.0, 12, 19), ball(8.0, 1, 25.0))
+    rod = part("rod", ball(8.0, -1, 25.0), block((12, -4, 20), (60, 4, 30)))
+    _, mechanism = of(seed, BASE, stud, rod, LEVER)
+    kinds = {joint.kind for joint in moving(mechanism) if {*joint.parts} == {"base", "stud"}}
+    assert ("cylindrical" in kinds) == slides

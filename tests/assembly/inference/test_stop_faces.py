@@ -111,7 +111,9 @@ def press_with_a_lever(stroke):
     plate = ring(4.0, 9.0, 5, 13), block((-4, 9, 5), (4, 40, 13)), block((4, 30, 5), (60, 44, 13))
     lever = part("lever", *plate, *ears)
     rod = part("rod", ring(4.0, 8.0, 13, 22.5, at), ring(4.0, 8.0, 14, 22, to), block((68, 36, 14), (146, 40, 22)))
-    link = part("link", ring(4.0, 8.0, 14, 22, (0.0, 40.0)), block((-3, 48, 14), (3, 92, 22)), pin(4.0, 14, 40, (0, 100)))
+    link = part(
+        "link", ring(4.0, 8.0, 14, 22, (0.0, 40.0)), block((-3, 48, 14), (3, 92, 22)), pin(4.0, 14, 40, (0, 100))
+    )
     rocker = part("rocker", ring(4.0, 8.0, 24, 32, (0.0, 100.0)), ring(4.0, 8.0, 24, 32, (-60.0, 100.0)))
     return assembly(base, lever, rod, ram, link, rocker)
 

@@ -9,7 +9,20 @@ import pytest
 from jaxkin.geometry.part import moved
 from jaxkin.geometry.surfaces import Cone, Plane
 from jaxkin.joints.evidence import EvidenceKind
-from reference.round_parts import SECTIONS, SEEDS, TO_X, anywhere, assembly, block, moving, owners, part, pin, ring
+from reference.round_parts import (
+    SECTIONS,
+    SEEDS,
+    TO_X,
+    anywhere,
+    assembly,
+    block,
+    kind_of,
+    moving,
+    owners,
+    part,
+    pin,
+    ring,
+)
 
 PIVOT = pin(4.0, 0, 60, (60.0, 60.0))
 LEVER = part("lever", ring(4.1, 9.0, 5, 15, (60.0, 60.0)), block((68, 57, 5), (100, 63, 15)))
@@ -135,3 +148,18 @@ def test_a_carriage_on_an_undercut_rail_slides(seed, reach, slides):
     top = block((-25, -reach - 20, 6.1), (25, reach + 20, 12))
     _, mechanism = of(assembly(rail, part("carriage", *jaws, top)), seed)
     assert [joint.kind for joint in moving(mechanism)] == (["prismatic"] if slides else [])
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("fit", [4.0, 4.1])
+@pytest.mark.parametrize(("screws", "turns"), [(4, True), (2, False)])
+def test_a_shaft_between_two_circles_of_screws_turns_where_nothing_else_stops_it(seed, fit, screws, turns):
+    """The stator of a motor and the flange on its shaft: a rod that slides needs no circle of screws."""
+    angles = [2 * np.pi * k / screws + 0.4 for k in range(screws)]
+    around = [[(away * np.cos(angle), away * np.sin(angle)) for angle in angles] for away in (16.0, 10.0)]
+    foot = block((-40, -30, -20), (40, -20, 28)), block((-4, -20, 0), (4, -7, 28))
+    can = part("can", ring(fit, 8.0, 0, 28), *foot, *(ring(1.25, 2.5, 20, 28, at) for at in around[0]))
+    tapped = [ring(1.25, 2.2, 32, 36, at) for at in around[1]]
+    shaft = part("shaft", pin(4.0, 2, 34), pin(7.5, 32, 36), *tapped, block((13, -4, 32), (60, 4, 36)))
+    mechanism = anywhere(assembly(can, shaft), seed).mechanism(fixed=["can"])
+    assert kind_of(mechanism, "can", "shaft") == ("revolute" if turns else "cylindrical")
