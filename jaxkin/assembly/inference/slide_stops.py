@@ -41,11 +41,12 @@ _SLIDES = {
     Stop.ONE_FACE: ("on one side a fastener alone would stop its slide", Certainty.ONE_FACE),
     Stop.CENTRED: ("no face that is drawn stops its slide", Certainty.CENTRED),
     Stop.NO_STROKE: ("no face that is drawn stops its slide", Certainty.CENTRED),
-    Stop.BALL_STUD: ("no face that is drawn stops its slide", Certainty.CENTRED),
-    Stop.FLANGES: ("no face that is drawn stops its slide", Certainty.CENTRED),
     Stop.SHORT: ("only that its hole is short tells that it does not slide", Certainty.SHORT),
 }
 """Why a joint that is taken to turn only may slide, too, and how often such a joint did not."""
+
+_FOR_A_REASON = (Stop.BALL_STUD, Stop.FLANGES)
+"""What stops a slide by what the parts are for: of these no drawing that no rule had seen was counted."""
 
 
 def slide_doubt(stop: Stop, room: float | None, radius: float) -> Doubt | None:
@@ -55,6 +56,8 @@ def slide_doubt(stop: Stop, room: float | None, radius: float) -> Doubt | None:
     """
     if stop in _SLIDES:
         return Doubt(JointKind.CYLINDRICAL, *_SLIDES[stop])
+    if stop in _FOR_A_REASON:
+        return None
     if stop is Stop.NONE and room is None:
         return Doubt(JointKind.REVOLUTE, "nothing that is drawn stops its slide", Certainty.NO_STOP)
     limit = MAX_AXIAL_PLAY * radius
