@@ -53,9 +53,9 @@ from jaxkin.effects.forces.transmission import Transmission as Transmission
 from jaxkin.effects.forces.transmission import transmission as transmission
 from jaxkin.effects.forces.undetermined import Undetermined as Undetermined
 from jaxkin.effects.limit_search import LimitKind as LimitKind
-from jaxkin.effects.limits import Limit as Limit
-from jaxkin.effects.limits import Limits as Limits
 from jaxkin.effects.limits import limits as limits
+from jaxkin.effects.limits_result import Limit as Limit
+from jaxkin.effects.limits_result import Limits as Limits
 from jaxkin.effects.mode_regions import ModeRegions as ModeRegions
 from jaxkin.effects.mode_regions import mode_regions as mode_regions
 from jaxkin.effects.motion_law import MotionLaw as MotionLaw

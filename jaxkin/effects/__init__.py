@@ -4,7 +4,8 @@ Each line names first the module of the function that users call.
 
 - `rates` (velocities, accelerations, jerks), `screw_axes` of them; `motion_law` gives displacements over time.
 - `coupler_curve`: the path of a point, over a `curve_range`, with its `cusps_crossings`.
-- `limits`: how far a drive goes. `limit_search` follows a `motion_curve` past the poses in which the drive locks.
+- `limits`: how far a drive goes. `limit_search` follows a `motion_curve` past the poses in which the drive locks;
+  `limits_result` is what it finds.
 - `assembly_modes`: all closed poses of some inputs, by `mode_search`; `coupled_turns` are modes of their own.
 - `workspace`: a map over two inputs. `grid_flood` fills it by `grid_steps`; `singularities` are where it ends.
 - `mode_regions`: which modes a path over two inputs connects, by the same steps on several `sheets`.
@@ -18,6 +19,6 @@ Each line names first the module of the function that users call.
 - `accuracy`: time against error, which poses in `extended` precision tell.
 - `forces`: of drives, in joints, and in equilibrium.
 
-`determined_drive` refuses drives that leave freedoms, of all that search for poses. Modules whose names end in `_plot`
-draw, and `pose_plot` saves, too.
+`determined_drive` refuses drives that leave freedoms, of all that search for poses, and finds where these begin.
+Modules whose names end in `_plot` draw, and `pose_plot` saves, too.
 """

@@ -35,6 +35,7 @@ from jaxkin.mechanism.joint_limits import excesses, with_limited
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mobility.loop_freedoms import loop_freedoms
+from jaxkin.mobility.open_loops import opening
 from jaxkin.solve.options import SolverOptions, options_with
 from jaxkin.solve.status import Status, default_tolerance
 
@@ -211,7 +212,7 @@ def assembly_modes(
     A mode whose `motion.sigma_min` is zero is singular: it may stand for a continuum of poses.
 
     Raises ValueError for a drive that leaves freedoms (the modes would be infinitely many) or that the loops cannot
-    follow, for loops that are open in the assembled pose or agree only nearly, and inside `jit`, `vmap` and `grad`.
+    follow, for loops that cannot be closed or agree only nearly, and inside `jit`, `vmap` and `grad`.
     """
     check_mechanism(mechanism, "assembly modes")
     check_known("assembly modes", "jk.assembly_modes", mechanism, drive)
@@ -223,8 +224,9 @@ def assembly_modes(
     check_determined(mechanism, places, "assembly modes", "jk.assembly_modes({}, drive)", "give")
     plan = plan_drive(linkage.in_space, tuple(ranges))
     given = {name: float(np.asarray(entry.values)[0]) for name, entry in driven.items()}
-    # the pose itself needs no solver, which takes seconds to compile
-    reached = mechanism.sweep(ranges, options=options) if any(given.values()) else None
+    # the assembled pose itself needs no solver, which takes seconds to compile
+    at_home = not any(given.values()) and opening(linkage) is None
+    reached = None if at_home else mechanism.sweep(ranges, options=options)
     is_reached = reached is None or bool(reached.closed[0])
     max_residual = options.tolerance or default_tolerance(dtypes.canonicalize_dtype(float))
     starts, searched = Starts(tries, seed, options), []

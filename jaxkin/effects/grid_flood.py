@@ -1,4 +1,4 @@
-"""Spread from the assembled pose over a grid of two inputs, from node to node, past no singular pose.
+"""Spread from the home pose over a grid of two inputs, from node to node, past no singular pose.
 
 Steps are those of `grid_steps`. Nodes to which no step leads get the pose of least residual from a neighbour: closed,
 but not connected on this grid, or out of reach.
@@ -18,6 +18,7 @@ from jaxkin.effects.grid_steps import GridSteps, NodeInputs, StepResults, neighb
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.trig import TURN
 from jaxkin.mechanism.drive_plan import DrivenLoopGroup
+from jaxkin.mobility.home_pose import HomeRows
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import Status, classify
 from jaxkin.solve.system.state import State, assembled
@@ -37,6 +38,7 @@ class Flooded(NamedTuple):
 
 def flood(
     loop_groups: Sequence[DrivenLoopGroup],
+    home: HomeRows,
     options: SolverOptions,
     inputs: NodeInputs,
     shape: tuple[int, int],
@@ -44,13 +46,13 @@ def flood(
 ) -> Flooded:
     """Find the poses of all nodes of a grid, the last input fastest; inputs are radians and lengths of the mechanism.
 
-    It begins at those nodes around the assembled pose that straight lines lead to.
+    It begins at those nodes around the pose `home`, in which the inputs are 0, that straight lines lead to.
     """
     if not loop_groups:  # nothing is to be closed
         count = inputs.shape[1]
         return Flooded((), np.full(count, Status.CLOSED.value, np.int32), np.zeros(count))
     front = _Front(loop_groups, options, inputs, shape, max_residual)
-    if front.begin(nodes_around(inputs)):
+    if front.begin(home, nodes_around(inputs)):
         front.spread(_Wanted.FOLLOWED)
         front.followed = front.known.copy()
     front.spread(_Wanted.LEAST)
@@ -100,8 +102,8 @@ class _Front:
         self.followed = np.zeros(count, bool)
         """To which nodes the branch of the assembled pose leads."""
 
-    def begin(self, around: Int[np.ndarray, " around"]) -> bool:
-        """Go from the assembled pose to the nodes around it, in steps of the grid, or, far away, longer ones.
+    def begin(self, home: HomeRows, around: Int[np.ndarray, " around"]) -> bool:
+        """Go from the home pose to the nodes around it, in steps of the grid, or, far away, longer ones.
 
         Those to which the branch leads are known then, or else the first one, and False is returned.
         """
@@ -110,8 +112,8 @@ class _Front:
         far = np.abs(ends).max(axis=1)
         steps = max((a / step for a, step in zip(far, spacing, strict=True) if step > 0), default=0.0)
         count = int(np.ceil(np.clip(steps, 1, MAX_STEPS_TO_GRID)))
-        rest = [[part[..., around] for part in state] for state in self.states]
-        found = self.steps.follow(rest, 0.0 * ends, ends, count)
+        begun = self.steps.states_of([np.tile(row, (len(around), 1)) for row in home])
+        found = self.steps.follow(begun, 0.0 * ends, ends, count)
         (taken,) = np.nonzero(np.asarray(found.taken))
         chosen = taken if len(taken) else np.array([0])
         self._keep(around[chosen], found, chosen)

@@ -19,6 +19,7 @@ from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.mechanism.drive_plan import DrivenLoopGroup
 from jaxkin.solve.closure.closure import closure, scaled_geometry
+from jaxkin.solve.closure.joint_coordinates import as_state
 from jaxkin.solve.continuation.determinant_sign import determinant_ratio
 from jaxkin.solve.continuation.input_slopes import input_slopes
 from jaxkin.solve.continuation.step import MAX_DEVIATION, MAX_TRAVEL
@@ -85,6 +86,16 @@ class GridSteps:
         self.systems = tuple(loop_group.system for loop_group in loop_groups)
         self.joints = tuple(loop_group.joints for loop_group in loop_groups)
 
+    def states_of(self, displacements: Sequence[Float[Array | np.ndarray, "poses _"]]) -> list[list[np.ndarray]]:
+        """Compute the states of the loop groups in closed poses, from the displacements of all joints there."""
+        found = []
+        for loop_group in self.loop_groups:
+            system, joints = loop_group.system, loop_group.joints
+            rows = jnp.stack([jnp.asarray(displacements[joint][:, k], float) for joint, k in loop_group.columns])
+            state = as_state(system, joints.frames_1, joints.frames_2, rows)
+            found.append([np.asarray(state.x / _scales(system, joints)), np.asarray(state.turns)])
+        return found
+
     def follow(
         self, states: Sequence[Sequence[np.ndarray]], begin: NodeInputs, end: NodeInputs, count: int = 1
     ) -> StepResults:
@@ -134,6 +145,12 @@ def _merged(found: StepResults, again: StepResults, failed: np.ndarray) -> StepR
         return one
 
     return jax.tree.map(put, found, again)
+
+
+@partial(jax.jit, static_argnums=0)  # op by op, the geometry would be some hundred programs
+def _scales(system: LoopSystem, joints: Joints) -> Float[Array, "columns 1"]:
+    """Compute the factor of each column from its scaled coordinate to that of the mechanism."""
+    return scaled_geometry(system, joints)[1]
 
 
 @partial(jax.jit, static_argnums=(0, 1))

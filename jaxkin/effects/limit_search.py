@@ -1,4 +1,4 @@
-"""Follow a drive from the assembled pose until the mechanism locks, a joint range ends, or the motion repeats."""
+"""Follow a drive from its home pose until the mechanism locks, a joint range ends, or the motion repeats."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def find_limit(
     turns: bool,
     features: PoseFeatures,
 ) -> FoundLimit:
-    """Follow the drive in a direction, 1 or -1, from the assembled pose to its first limit.
+    """Follow the drive in a direction, 1 or -1, from the pose where it has `begun` to its first limit.
 
     `turns` says whether the drive is an angle, so that the motion may repeat after full turns. Where it does but for
     coordinates that have turned on, the periods that surely stay within the ranges are passed over.
@@ -96,18 +96,19 @@ def find_limit(
             return FoundLimit(LimitKind.LOST, here, None, False)
         there, length = taken
         located = []
-        for event in _events(curve, direction, ranges, number if turns else None):
+        for event in _events(curve, begun, direction, ranges, number if turns else None):
             if (end := _crossed(curve, here, there, length, event)) is not None:
                 located.append((*curve.locate(here, end, event.value), event))
         if located:
             _, at, first = min(located, key=lambda each: each[0])
             if first.kind is not LimitKind.NONE:
                 return FoundLimit(first.kind, at, first.column, False)
-            if ahead is None and _is_home(curve, at, features):
-                ahead = _periods_within(ranges, at.q, lowest, highest)
+            if ahead is None and _is_home(curve, begun, at, features):
+                advance = at.q - begun.q
+                ahead = _periods_within(ranges, advance, lowest, highest)
                 if ahead is None:
                     return FoundLimit(LimitKind.NONE, at, None, True)
-                there = there._replace(q=there.q + ahead * at.q)
+                there = there._replace(q=there.q + ahead * advance)
                 number += number * ahead
             elif number == MAX_TURNS:
                 return FoundLimit(LimitKind.NONE, at, None, False)
@@ -132,10 +133,15 @@ class _Event(NamedTuple):
 
 
 def _events(
-    curve: MotionCurve, direction: float, ranges: Sequence[CoordinateRange], number: int | None
+    curve: MotionCurve,
+    begun: CurvePose,
+    direction: float,
+    ranges: Sequence[CoordinateRange],
+    number: int | None,
 ) -> list[_Event]:
-    """List what ends the motion; `number` is that of the next full turn of the drive, None for a slide."""
-    drive = curve.drive
+    """List what ends the motion that has `begun`; `number` is that of the next full turn of the drive, None for a
+    slide."""
+    drive, first = curve.drive, begun.q[curve.drive]
     events = [_Event(LimitKind.LOCKS, lambda here: direction * float(here.tangent[drive]))]
     for column, low, high in ranges:
         for sign, end in ((1.0, low), (-1.0, high)):
@@ -149,7 +155,7 @@ def _events(
                     )
                 )
     if number is not None:
-        events.append(_Event(LimitKind.NONE, lambda here: number * TURN - direction * float(here.q[drive])))
+        events.append(_Event(LimitKind.NONE, lambda here: number * TURN - direction * float(here.q[drive] - first)))
     return events
 
 
@@ -183,11 +189,11 @@ def _periods_within(
     return None if np.isinf(most) else max(0, int(most))
 
 
-def _is_home(curve: MotionCurve, at: CurvePose, features: PoseFeatures) -> bool:
-    """Tell whether all parts are in their assembled poses again, but for idle freedoms."""
+def _is_home(curve: MotionCurve, begun: CurvePose, at: CurvePose, features: PoseFeatures) -> bool:
+    """Tell whether all parts are again where they were when the motion has `begun`, but for idle freedoms."""
     # with the drive at rest: of its own motion and the idle ones together no combination is an idle one alone
     free = [column for column in curve.free if column != curve.drive]
-    home, there = features.of(np.stack([np.zeros(len(at.q)), at.q]), free)
+    home, there = features.of(np.stack([begun.q, at.q]), free)
     return bool(np.abs(home - there).max(initial=0.0) <= SAME_POSE)
 
 
@@ -226,8 +232,10 @@ def _and(names: Sequence[str]) -> str:
     return listed(names) if len(names) > 8 else " and ".join([", ".join(names[:-1]), names[-1]] if names[1:] else names)
 
 
-def why_singular(mechanism: Mechanism, curve: MotionCurve, driven: Sequence[JointCoordinate]) -> str:
-    """Say why no motion of the drive, the first of `driven`, begins at the assembled pose, and what to do.
+def why_singular(
+    mechanism: Mechanism, curve: MotionCurve, home: LoopCoordinates, driven: Sequence[JointCoordinate]
+) -> str:
+    """Say why no motion of the drive, the first of `driven`, begins at the pose `home`, and what to do.
 
     At a limit of the drive another coordinate still moves: the fastest one that can be driven in its place, those of
     joints with one coordinate first. None does where branches cross.
@@ -237,7 +245,7 @@ def why_singular(mechanism: Mechanism, curve: MotionCurve, driven: Sequence[Join
     choices = []
     for column, place in enumerate(loops.columns):
         drives = [place, *driven[1:]]
-        begun = None if place in driven else MotionCurve(loops, column, curve.held, curve.idle).begin(1.0)
+        begun = None if place in driven else MotionCurve(loops, column, curve.held, curve.idle).begin(1.0, home)
         if begun is None or infeasible_drive(linkage, drives) is not None or undriven_freedoms(linkage, drives):
             continue
         choices.append((mechanism.all_joints[place[0]].freedoms > 1, -abs(begun.tangent[column]), column))
@@ -246,7 +254,8 @@ def why_singular(mechanism: Mechanism, curve: MotionCurve, driven: Sequence[Join
     else:
         column = min(choices)[-1]
         why = f"{name} is at a limit there, and {_full_name(mechanism, loops.columns[column])} still moves"
-    step = [0.0, float(f"{BESIDE * loops.units[column]:.2g}")]
+    first = float(home[column] * loops.units[column])
+    step = [first, first + float(f"{BESIDE * loops.units[column]:.2g}")]
     drive = {_full_name(mechanism, loops.columns[column]): step, **{each: [0.0, 0.0] for each in held}}
     return (
         f"the assembled pose is singular: {why}; assemble the mechanism beside it: "

@@ -8,21 +8,24 @@ an end of its range. The rest puts into words what was found.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from pathlib import Path
 
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Float
 
 from jaxkin._arguments import by_name, check_known, check_mechanism, several
-from jaxkin._guesses import Result
-from jaxkin.effects.determined_drive import check_determined
-from jaxkin.effects.limit_search import CoordinateRange, FoundLimit, LimitKind, find_limit, why_locked, why_singular
-from jaxkin.effects.mode_plot import draw_modes
+from jaxkin.effects.determined_drive import check_determined, home_of_drive
+from jaxkin.effects.limit_search import (
+    CoordinateRange,
+    FoundLimit,
+    LimitKind,
+    find_limit,
+    why_locked,
+    why_singular,
+)
+from jaxkin.effects.limits_result import Limit, Limits
 from jaxkin.effects.mode_search import PoseFeatures
 from jaxkin.effects.motion_curve import MotionCurve
-from jaxkin.effects.pose_plot import save_displacements
 from jaxkin.geometry.movements import is_length
 from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.closed_loops import closed_loops
@@ -31,72 +34,12 @@ from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.joint_limits import rounding
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
+from jaxkin.mobility.home_pose import HomeRows
 from jaxkin.mobility.loop_freedoms import loop_freedoms
 from jaxkin.topology.structure import LoopGroup
 
 Ranges = Mapping[JointCoordinate, tuple[float, float]]
 """The lowest and the highest displacement of coordinates, from the assembled pose."""
-
-
-@dataclass(frozen=True, repr=False)
-class Limit(Result):
-    """One end of the range of a drive."""
-
-    value: float
-    """Displacement of the drive, radians or lengths from the assembled pose; -inf or inf where there is no limit."""
-    kind: LimitKind
-    """What ends the range there."""
-    joints: tuple[str, ...]
-    """Where it locks: the joints that can move while the drive is at rest. Where a range ends: the joint."""
-    reason: str
-    """What ends the range, in words."""
-    coordinates: Mapping[str, Float[np.ndarray, " _"]]
-    """Displacements of each joint at the limit; empty where there is none."""
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class Limits(Result):
-    """The reachable range of a drive. Prints, draws and saves itself."""
-
-    drive: str
-    """"joint.coordinate"."""
-    lower: Limit
-    upper: Limit
-    full_turn: bool
-    """Whether the drive makes full turns, after which the mechanism is in its assembled pose again."""
-    motion: Motion
-    """The poses at the lower limit, as assembled, and at the upper limit; those of limits that there are."""
-    unit: str
-    """Unit of the limits: "rad", or that of lengths."""
-
-    @property
-    def range(self) -> tuple[float, float]:
-        """Lowest and highest displacement of the drive, -inf and inf where there is no limit."""
-        return self.lower.value, self.upper.value
-
-    def __str__(self) -> str:
-        if self.full_turn:
-            return f"{self.drive} makes full turns: no limit"
-        lines = [f"{self.drive} from {self._value(self.lower.value)} to {self._value(self.upper.value)}"]
-        for name, limit in (("lower", self.lower), ("upper", self.upper)):
-            lines.append(f"  {name}: {limit.reason}")
-        return "\n".join(lines)
-
-    def plot(self, path: str | Path) -> Path:
-        """Draw the mechanism at its limits and as assembled, as bars between joints, into a picture file."""
-        return draw_modes(self.motion, [f"{name}: {value}" for name, value in self._poses()], Path(path))
-
-    def save(self, path: str | Path) -> Path:
-        """Write the displacements of all joints at the limits and as assembled as comma-separated values."""
-        mechanism = self.motion.mechanism
-        return save_displacements(mechanism.all_joints, self.motion.displacements, mechanism.unit, Path(path))
-
-    def _value(self, value: float) -> str:
-        return f"{value:.9g} {self.unit}".rstrip() if np.isfinite(value) else f"{value}"
-
-    def _poses(self) -> list[tuple[str, str]]:
-        ends = [("lower", self.lower.value), ("as assembled", 0.0), ("upper", self.upper.value)]
-        return [(name, f"{value:.4g} {self.unit}".rstrip()) for name, value in ends if np.isfinite(value)]
 
 
 def limits(
@@ -118,8 +61,11 @@ def limits(
     size; 1e-10 beside poses in which branches nearly cross, and 1e-6 where they cross in the limit itself, as where a
     rhombus folds up. Other poses in which branches cross, or come nearer than 1e-3, are passed straight on.
 
+    With new lengths the motion is followed from where the loops close with the drive at 0, or as near to that as they
+    do; all displacements and ranges count from the assembled pose, as those of a sweep.
+
     Raises ValueError for unknown names, for ranges that do not hold the assembled pose, where freedoms are left, where
-    the loops are open or singular in the assembled pose, and inside `jit`, `vmap` and `grad`.
+    the loops cannot be closed or are singular there, and inside `jit`, `vmap` and `grad`.
     """
     check_mechanism(mechanism, "limits")
     check_known("limits", "jk.limits", mechanism)
@@ -130,13 +76,15 @@ def limits(
     driven = coordinates(linkage, hold)
     name, place = next(iter(driven.items()))
     check_determined(mechanism, driven, "limits", f"jk.limits({{}}, {drive!r})", "hold")
-    given = _ranges(mechanism, ranges or {})
+    home = home_of_drive(mechanism, driven, nearest=place)
+    given = _ranges(mechanism, home, ranges or {})
     group = next((each for each in linkage.structure.loop_groups if place[0] in each.joints), None)
     if group is None:
-        return _limits_of_joint(mechanism, name, place, given)
+        return _limits_of_joint(mechanism, name, place, home, given)
     curve = _curve(linkage, group, list(driven.values()))
-    lower, upper = _ends(mechanism, curve, list(driven.values()), given)
-    return _limits_in_loops(mechanism, name, place, curve, lower, upper)
+    lower, upper = _ends(mechanism, curve, home, list(driven.values()), given)
+    ends = [_limit(mechanism, list(driven), curve, home, *end) for end in ((lower, -1.0), (upper, 1.0))]
+    return _limits(mechanism, name, place, home, ends[0], ends[1], upper.repeats and lower.repeats)
 
 
 def _curve(linkage: Linkage, group: LoopGroup, driven: Sequence[JointCoordinate]) -> MotionCurve:
@@ -148,31 +96,32 @@ def _curve(linkage: Linkage, group: LoopGroup, driven: Sequence[JointCoordinate]
 
 
 def _ends(
-    mechanism: Mechanism, curve: MotionCurve, driven: Sequence[JointCoordinate], ranges: Ranges
+    mechanism: Mechanism, curve: MotionCurve, home: HomeRows, driven: Sequence[JointCoordinate], ranges: Ranges
 ) -> tuple[FoundLimit, FoundLimit]:
     """Follow the drive, the first of `driven`, to its lower and its upper limit.
 
-    They are one where the motion repeats. ValueError where the assembled pose is singular.
+    They are one where the motion repeats. ValueError where the home pose is singular.
     """
     loops = curve.loops
+    start = np.array([home[joint][k] for joint, k in loops.columns]) / loops.units
     inside = {loops.columns.index(each): ends for each, ends in ranges.items() if each in loops.columns}
     scaled = [CoordinateRange(k, low / loops.units[k], high / loops.units[k]) for k, (low, high) in inside.items()]
     turns, features = not _is_length(mechanism, driven[0]), PoseFeatures(loops, curve.idle)
     found: list[FoundLimit] = []
     for direction in (1.0, -1.0):
-        begun = curve.begin(direction)
+        begun = curve.begin(direction, start)
         if begun is None:
-            raise ValueError(why_singular(mechanism, curve, driven))
+            raise ValueError(why_singular(mechanism, curve, start, driven))
         found.append(find_limit(curve, begun, direction, scaled, turns, features))
         if found[-1].repeats:
             break
     return found[-1], found[0]
 
 
-def _ranges(mechanism: Mechanism, given: Mapping[str, Sequence[float]]) -> Ranges:
+def _ranges(mechanism: Mechanism, home: HomeRows, given: Mapping[str, Sequence[float]]) -> Ranges:
     """List the ranges of coordinates: those of joints, replaced by those given.
 
-    Raises ValueError where they exclude the assembled pose.
+    Raises ValueError where they exclude the home pose.
     """
     found = {
         (number, k): (float(low), float(high))
@@ -190,14 +139,15 @@ def _ranges(mechanism: Mechanism, given: Mapping[str, Sequence[float]]) -> Range
         found[place] = low, high
     for (number, k), (low, high) in found.items():
         joint = mechanism.all_joints[number]
-        slack = rounding(mechanism.all_joints, is_length(joint.coordinates[k]))
-        if not (low <= slack and high >= -slack):
+        slack, at = rounding(mechanism.all_joints, is_length(joint.coordinates[k])), float(home[number][k])
+        if not low - slack <= at <= high + slack:
+            pose = "the assembled pose, 0," if not at else f"the pose in which the loops close, {at:.6g},"
             raise ValueError(
-                f"the assembled pose, 0, is not in the range {low:g} to {high:g} of "
-                f"{joint.full_names[k]}: ranges count from there; assemble the mechanism within, as "
-                "mechanism.at(motion, index) does, or give another range with ranges="
+                f"{pose} is not in the range {low:g} to {high:g} of {joint.full_names[k]}: ranges count from the "
+                "assembled pose; assemble the mechanism within, as mechanism.at(motion, index) does, or give another "
+                "range with ranges="
             )
-        found[number, k] = min(low, 0.0), max(high, 0.0)
+        found[number, k] = min(low, at), max(high, at)
     return found
 
 
@@ -206,12 +156,12 @@ def _is_length(mechanism: Mechanism, place: JointCoordinate) -> bool:
     return is_length(mechanism.all_joints[joint].coordinates[k])
 
 
-def _limits_of_joint(mechanism: Mechanism, name: str, place: JointCoordinate, given: Ranges) -> Limits:
+def _limits_of_joint(mechanism: Mechanism, name: str, place: JointCoordinate, home: HomeRows, given: Ranges) -> Limits:
     """Make the limits of a drive that is in no loop: the range of its joint."""
     joint, k = place
     ends = []
     for value in given.get(place, (-np.inf, np.inf)):
-        rows = [np.zeros(each.freedoms) for each in mechanism.all_joints]
+        rows = [row.copy() for row in home]
         if not np.isfinite(value):
             ends.append(Limit(value, LimitKind.NONE, (), "no limit: it is in no loop", {}))
             continue
@@ -221,26 +171,21 @@ def _limits_of_joint(mechanism: Mechanism, name: str, place: JointCoordinate, gi
             Limit(value, LimitKind.RANGE, (mechanism.all_joints[joint].name,), f"the range of {name} ends", shown)
         )
     length = _is_length(mechanism, place)
-    return _limits(mechanism, name, place, ends[0], ends[1], not length and not any(end.coordinates for end in ends))
+    full_turn = not length and not any(end.coordinates for end in ends)
+    return _limits(mechanism, name, place, home, ends[0], ends[1], full_turn)
 
 
-def _limits_in_loops(
-    mechanism: Mechanism, name: str, place: JointCoordinate, curve: MotionCurve, lower: FoundLimit, upper: FoundLimit
-) -> Limits:
-    """Make the limits of a drive in loops, in words and in coordinates of all joints."""
-    ends = [_limit(mechanism, name, curve, end, side) for end, side in ((lower, -np.inf), (upper, np.inf))]
-    return _limits(mechanism, name, place, ends[0], ends[1], upper.repeats and lower.repeats)
-
-
-def _limit(mechanism: Mechanism, name: str, curve: MotionCurve, end: FoundLimit, side: float) -> Limit:
-    """Say in words what ends the range on one side, and where all joints are; `side` is -inf or inf."""
-    loops, joints = curve.loops, mechanism.all_joints
+def _limit(
+    mechanism: Mechanism, driven: Sequence[str], curve: MotionCurve, home: HomeRows, end: FoundLimit, side: float
+) -> Limit:
+    """Say in words what ends the range of the first of `driven` on one side, -1 or 1, and where all joints are."""
+    loops, joints, name = curve.loops, mechanism.all_joints, driven[0]
     q = end.here.q * loops.units
     at = float(q[curve.drive])
     if end.kind is LimitKind.NONE:
         reason = "the motion repeats" if end.repeats else f"no limit up to {at:.4g}, where the search ended"
-        return Limit(side, end.kind, (), reason, {})
-    shown = {joint.name: np.zeros(joint.freedoms) for joint in joints}
+        return Limit(side * np.inf, end.kind, (), reason, {})
+    shown = {joint.name: row.copy() for joint, row in zip(joints, home, strict=True)}
     for (joint, k), value in zip(loops.columns, q, strict=True):
         shown[joints[joint].name][k] = value
     if end.kind is LimitKind.LOST:
@@ -254,17 +199,18 @@ def _limit(mechanism: Mechanism, name: str, curve: MotionCurve, end: FoundLimit,
         joint, k = loops.columns[end.column]
         owner = joints[joint]
         of = owner.full_names[k]
-        return Limit(at, end.kind, (owner.name,), f"the range of {of} ends, at {q[end.column]:.6g}", shown)
+        reason = f"the range of {of} ends, at {q[end.column]:.6g}"
+        return Limit(at, end.kind, (owner.name,), reason, shown)
     moving, why = why_locked({index: joints[index] for index in loops.loop_group.joints}, curve, end.here)
     return Limit(at, end.kind, moving, f"{name} locks: {why}", shown)
 
 
 def _limits(
-    mechanism: Mechanism, name: str, place: JointCoordinate, lower: Limit, upper: Limit, full_turn: bool
+    mechanism: Mechanism, name: str, place: JointCoordinate, home: HomeRows, lower: Limit, upper: Limit, full_turn: bool
 ) -> Limits:
-    """Make the result, with the motion of the limits that there are and the assembled pose between them."""
-    home = {joint.name: np.zeros(joint.freedoms) for joint in mechanism.all_joints}
-    poses = [*([lower.coordinates] if lower.coordinates else []), home]
+    """Make the result, with the motion of the limits that there are and the home pose between them."""
+    at_home = {joint.name: row for joint, row in zip(mechanism.all_joints, home, strict=True)}
+    poses = [*([lower.coordinates] if lower.coordinates else []), at_home]
     poses += [upper.coordinates] if upper.coordinates else []
     joint, k = place
     rows = tuple(jnp.asarray(np.stack([pose[each] for pose in poses]), float) for each in mechanism.joints)

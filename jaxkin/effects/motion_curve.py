@@ -74,13 +74,12 @@ class MotionCurve:
         found[:, self.free] = basis
         return found, float(values[rank - 1]) if rank else np.inf
 
-    def begin(self, direction: float, start: LoopCoordinates | None = None) -> CurvePose | None:
-        """Find the tangent at a closed pose, by default the assembled one, along which the drive rises or falls.
+    def begin(self, direction: float, home: LoopCoordinates) -> CurvePose | None:
+        """Find the tangent at a closed pose along which the drive rises or falls.
 
         It rises where `direction` is 1, and falls where that is -1.
         None where the pose is singular: where the drive does not move to first order, or branches cross.
         """
-        home = np.zeros(len(self.loops.columns)) if start is None else start
         basis, sigma = self._freedoms(home)
         if len(basis) != 1 + self.idle:
             return None

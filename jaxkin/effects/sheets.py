@@ -6,21 +6,14 @@ No step leads to a pose beyond the limits of joints, nor from one.
 from __future__ import annotations
 
 from collections import defaultdict
-from functools import partial
 
-import jax
-import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float, Int
+from jaxtyping import Float, Int
 
 from jaxkin.effects.grid_steps import GridSteps, NodeInputs, neighbours
 from jaxkin.effects.mode_limits import WithinLimits
 from jaxkin.effects.mode_search import SAME_POSE, SAME_POSE_SINGLE
 from jaxkin.mechanism.motion import Motion
-from jaxkin.solve.closure.closure import scaled_geometry
-from jaxkin.solve.closure.joint_coordinates import as_state
-from jaxkin.solve.system.joints import Joints
-from jaxkin.solve.system.loop_system import LoopSystem
 
 MAX_POSES = 256
 """Most poses of a node: a mechanism with more than Dietmaier's forty is not known, and what is a continuum is refused
@@ -46,12 +39,7 @@ class Sheets:
 
     def begin(self, node: int, modes: Motion) -> None:
         """Put the modes at a node: poses 0, 1 and so on. Raises ValueError for modes that are one pose."""
-        every = []
-        for loop_group in self.steps.loop_groups:
-            rows = jnp.stack([modes.displacements[joint][:, k] for joint, k in loop_group.columns])
-            lengths = _scales(loop_group.system, loop_group.joints)
-            state = as_state(loop_group.system, loop_group.joints.frames_1, loop_group.joints.frames_2, rows)
-            every += [np.asarray(state.x / lengths), np.asarray(state.turns)]
+        every = [part for state in self.steps.states_of(modes.displacements) for part in state]
         for mode in range(len(modes)):
             if self._add(node, [part[..., mode] for part in every]) != mode:
                 raise ValueError(f"mode {mode + 1} is another one, but for a full turn: it is there twice")
@@ -126,9 +114,3 @@ class Sheets:
             found += [x[length], np.cos(x[~length]), np.sin(x[~length])]
             found += [np.outer(turn, turn)[np.triu_indices(4)] for turn in turns]
         return np.concatenate(found)
-
-
-@partial(jax.jit, static_argnums=0)  # op by op, the geometry would be some hundred programs
-def _scales(system: LoopSystem, joints: Joints) -> Float[Array, "columns 1"]:
-    """Compute the factor of each column from its scaled coordinate to that of the mechanism."""
-    return scaled_geometry(system, joints)[1]

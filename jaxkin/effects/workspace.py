@@ -17,7 +17,7 @@ from jaxtyping import Array, Bool, Float, Int
 from jaxkin._arguments import by_name, check_known, check_mechanism, numbers, several
 from jaxkin._guesses import Result
 from jaxkin._names import listed, nearest
-from jaxkin.effects.determined_drive import check_determined
+from jaxkin.effects.determined_drive import check_determined, home_of_drive
 from jaxkin.effects.grid_flood import Flooded, flood, nodes_around
 from jaxkin.effects.pose_plot import save_rows
 from jaxkin.effects.workspace_plot import WorkspaceMap, draw_workspace
@@ -153,7 +153,7 @@ def workspace(
     grid is not found. Coordinates in `hold` stay as assembled.
 
     Raises ValueError for names, ranges and points that make no sense, for a drive that leaves freedoms or that the
-    loops cannot follow, for loops that are open in the assembled pose, and inside `jit`, `vmap` and `grad`.
+    loops cannot follow, for loops that cannot be closed with all of them at 0, and inside `jit`, `vmap` and `grad`.
     """
     check_mechanism(mechanism, "workspaces")
     check_known("workspaces", "jk.workspace", mechanism, ranges, point)
@@ -164,13 +164,14 @@ def workspace(
     keys = (*grid, *several(hold, "hold", "coordinates"))
     driven = coordinates(linkage, keys)
     check_determined(mechanism, driven, "a workspace", "jk.workspace({}, ...)", "hold")
+    home = home_of_drive(mechanism, driven)
     where = as_point(point)
 
     first, second = grid.values()
     shape = len(first), len(second)
     plan, nodes = plan_drive(linkage, keys), _nodes(first, second, len(keys) - 2)
     max_residual = float(options.tolerance or default_tolerance(nodes.dtype))
-    found = flood(plan.loop_groups, options, nodes, shape, max_residual)
+    found = flood(plan.loop_groups, home, options, nodes, shape, max_residual)
     rows, points, rates = _evaluate_nodes(linkage, plan, found, nodes, mechanism.parts.index(part), where)
     inputs = {name: jnp.asarray(row) for name, row in zip(driven, nodes, strict=True)}
     motion = Motion(mechanism, inputs, rows, jnp.asarray(found.status), jnp.asarray(found.residual), options=options)

@@ -19,6 +19,7 @@ from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.mobility.doubts import doubts
 from jaxkin.mobility.infeasible_drive import InfeasibleDrive
+from jaxkin.mobility.loop_freedoms import loop_freedoms
 from jaxkin.mobility.open_loops import opening
 from jaxkin.topology.bodies import body_of_parts
 
@@ -136,12 +137,16 @@ def _limits(joint: Joint) -> str:
 def describe_mobility(mechanism: Mechanism, verbose: bool = False) -> list[str]:
     """Tell the freedoms of a mechanism in lines, of many idle ones the first unless `verbose`; where nothing can move,
     why not, and where it is open, by how much."""
+    told: list[str] = []
     if (gap := opening(mechanism.linkage, mechanism.unit)) is not None:
-        return [f"Not closed in this pose: {gap}; mechanism.close() closes it"]
+        closes = all(each.closes for each in loop_freedoms(mechanism.linkage))
+        told = [f"Not closed in this pose: {gap}; mechanism.close() {'closes it' if closes else 'tries to close it'}"]
+        if not closes:
+            return told
     mobility = mechanism.mobility()
     head, *idle = str(mobility).splitlines()
     idle = [f"  idle: {each}" for each in mobility.idle_motions] if verbose else idle
-    lines = [f"Mobility: {head}", *([f"  {mobility.counting}"] if mobility.counting else []), *idle]
+    lines = [*told, f"Mobility: {head}", *([f"  {mobility.counting}"] if mobility.counting else []), *idle]
     if len(mechanism.bodies) == 1 < len(mechanism.parts):
         return [*lines, f"It cannot move: all its parts are one body.{_what_makes_it_one(mechanism)}"]
     moving = len(mechanism.parts) > len(mechanism.fixed)

@@ -265,7 +265,7 @@ class Mechanism(Guided):
         return plan(self, drive)
 
     def mobility(self) -> Mobility:
-        """Count freedoms, idle ones and redundant constraints at the assembled pose; ValueError where it is open."""
+        """Count freedoms, idle ones and redundant constraints: see `jaxkin.mobility.mobility.mobility`."""
         return mobility(self.linkage, self.unit)
 
     def blocking_contacts(self) -> tuple[BlockingContacts, ...]:

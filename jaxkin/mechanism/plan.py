@@ -17,7 +17,7 @@ from jaxkin.mechanism.drive_plan import DrivePlan, plan_drive
 from jaxkin.mechanism.plan_steps import Step, loop_group_steps
 from jaxkin.mechanism.targets import DriveKey, names_with_targets
 from jaxkin.mobility.infeasible_drive import undriven_freedoms
-from jaxkin.mobility.open_loops import check_closed
+from jaxkin.mobility.open_loops import check_assembles
 from jaxkin.topology.elements import StructureElement
 from jaxkin.topology.moving import moving
 
@@ -53,7 +53,8 @@ class Plan(Result):
 def plan(mechanism: Mechanism, drive: Iterable[DriveKey]) -> Plan:
     """Plan a drive, given by the names of coordinates as in `sweep`; a drive with its values will do as well.
 
-    Raises ValueError for names that are not there, for none, and where the given pose is open: see `Mechanism.close`.
+    Raises ValueError for names that are not there, for none, and where the loops cannot be closed: see
+    `Mechanism.close`.
     """
     if isinstance(drive, str):
         raise ValueError(f"the drive must be a list of coordinates, got the text {drive!r}; write [{drive!r}]")
@@ -64,7 +65,7 @@ def plan(mechanism: Mechanism, drive: Iterable[DriveKey]) -> Plan:
     keys = {coordinate(linkage, key): key for key in drive}
     if not keys:
         raise ValueError("the drive is empty: name at least one joint, as in plan(['A'])")
-    check_closed(linkage, mechanism.unit, "the plan of a drive", f"{{}}.plan({[str(key) for key in keys.values()]})")
+    check_assembles(linkage, mechanism.unit, "the plan of a drive", f"{{}}.plan({[str(key) for key in keys.values()]})")
     found = plan_drive(linkage, tuple(keys.values()))
     steps: list[Step] = []
     for loop_group in found.loop_groups:

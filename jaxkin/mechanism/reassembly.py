@@ -26,6 +26,7 @@ from jaxkin.linkage.host_closure import ClosedLoops, LoopCoordinates
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.placed_at import placed_at
 from jaxkin.mobility.alignment import asked_noise, extent
+from jaxkin.mobility.home_pose import home_pose
 from jaxkin.mobility.open_loops import Opening, tell_opening
 from jaxkin.mobility.other_modes import STARTS, closed_from_elsewhere, other_modes
 
@@ -161,11 +162,11 @@ def _close_group(
 ) -> _ClosedGroup:
     """Close loops from the given pose; where the steps end at a residual, by the nearest of those from other starts."""
     loops = closed_loops(linkage, loop_group)
-    q, held = np.zeros(len(loops.columns)), [k for k, column in enumerate(loops.columns) if column in fixed]
-    before = loops.travel(q).residual_norm
-    if loops.coincide or before <= loops.thresholds.residual:
-        return _ClosedGroup(loops, q, held, before, before, True)
-    q, found = loops.closed(q, held)
+    held = [k for k, column in enumerate(loops.columns) if column in fixed]
+    before = loops.travel(np.zeros(len(loops.columns))).residual_norm
+    q, found, closed = home_pose(loops, held)
+    if closed:
+        return _ClosedGroup(loops, q, held, before, found.residual_norm, True)
     size = extent([linkage.joints[index] for index in loop_group.joints])
     enough = max(noise * size / loops.length, loops.thresholds.residual)
     if found.residual_norm > enough and (others := closed_from_elsewhere(loops, q, enough, held)):

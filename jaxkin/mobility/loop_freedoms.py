@@ -20,6 +20,7 @@ from jaxkin.linkage.closed_loops import closed_loops
 from jaxkin.linkage.first_order import loop_jacobian, null_space
 from jaxkin.linkage.host_closure import LoopCoordinates, Travel, least_norm
 from jaxkin.linkage.linkage import Linkage
+from jaxkin.mobility.home_pose import HomePose, home_pose
 from jaxkin.topology.structure import LoopGroup
 
 _STEP = 0.05
@@ -55,19 +56,19 @@ class LoopFreedoms:
         """The row of the fixed parts."""
 
     @cached_property
-    def _home(self) -> tuple[LoopCoordinates, Travel]:
-        """Close the loops from the assembled pose: the scaled coordinates, and the quantities of the loops there."""
-        return self._loops.closed(np.zeros(len(self.columns)))
+    def home(self) -> HomePose:
+        """The assembled pose, or, where that is open, as after a change of lengths, where the loops close."""
+        return home_pose(self._loops)
 
     @property
     def closes(self) -> bool:
         """Whether Newton's method closes the loops from the assembled pose: if not, their freedoms are unknown."""
-        return self._loops.coincide or self._home[1].residual_norm < self.thresholds.residual
+        return self.home.closed
 
     @property
     def assembled_screws(self) -> Screws:
         """Twists of the coordinates (6, columns) at the assembled pose, in world coordinates."""
-        return self._home[1].screws
+        return self.home.travel.screws
 
     @property
     def screws(self) -> Screws:
@@ -83,15 +84,15 @@ class LoopFreedoms:
     @cached_property
     def _generic(self) -> tuple[LoopCoordinates, Travel]:
         """Find the scaled coordinates of the generic pose, and the quantities of the loops there."""
-        home = self._home[0]
-        jacobian = self._jacobian(self._home[1])
+        home = self.home.q
+        jacobian = self._jacobian(self.home.travel)
         generic = np.sin(1.0 + 2.7 * np.arange(len(self.columns)))  # a fixed direction without symmetry
         along = generic - least_norm(jacobian, jacobian @ generic, 1e-12)
         there, found = self._loops.closed(home + _STEP * along)
         rank = null_space(self._jacobian(found), self.thresholds.rank)[0]
         assembled_rank = len(self.columns) - len(self.assembled_motions)
         is_generic = found.residual_norm < self.thresholds.residual and rank >= assembled_rank
-        return (there, found) if is_generic else self._home
+        return (there, found) if is_generic else (home, self.home.travel)
 
     def _jacobian(self, there: Travel) -> Float[np.ndarray, "equations columns"]:
         """Compute the closure Jacobian at a closed pose, with the derivatives of the couplings below it."""
@@ -116,7 +117,7 @@ class LoopFreedoms:
     @cached_property
     def assembled_motions(self) -> Float[np.ndarray, "freedoms columns"]:
         """An orthonormal basis of the rates that keep all loops closed at the assembled pose: perhaps more of them."""
-        return null_space(self._jacobian(self._home[1]), self.thresholds.rank)[1]
+        return null_space(self._jacobian(self.home.travel), self.thresholds.rank)[1]
 
     def subgroup(self, joints: Container[int]) -> Subgroup:
         """Find the smallest displacement subgroup that holds the motions of these joints."""

@@ -22,7 +22,7 @@ from jaxkin.linkage.first_order import EQUATIONS, independent, without
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.idle import IdleMotion, IdleMotions
 from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
-from jaxkin.mobility.open_loops import check_closed
+from jaxkin.mobility.open_loops import check_assembles
 
 _LETTERS = 80
 """Letters of idle motions that stand in the line on mobility: of more, each has a line of its own below."""
@@ -104,11 +104,12 @@ def mobility(linkage: Linkage, unit: str = "") -> Mobility:
     """Compute the mobility from the rank of the closure Jacobian at the assembled pose and at a closed pose beside it.
 
     The larger of the two ranks counts: at a singular pose (a parallelogram lying flat) the rank is lower although the
-    mechanism has no further freedom. `unit` is the name of the unit of length, for messages. Raises ValueError where
-    the assembled pose is open: see `Mechanism.close`, and inside `jit`, `vmap` and `grad`.
+    mechanism has no further freedom. Where the assembled pose is open, as after a change of lengths, it is that of the
+    pose in which the loops close from there. `unit` is the name of the unit of length, for messages. Raises ValueError
+    where they cannot be closed: see `Mechanism.close`, and inside `jit`, `vmap` and `grad`.
     """
     check_known("freedoms", "mobility()", linkage)
-    check_closed(linkage, unit, "mobility", "{}.mobility()")
+    check_assembles(linkage, unit, "mobility", "{}.mobility()")
     return _of_closed(linkage)
 
 

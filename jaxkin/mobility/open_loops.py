@@ -1,4 +1,5 @@
-"""Tell which loops of a mechanism are open in the given pose, by how much, and where (host code)."""
+"""Tell which loops of a mechanism are open in the given pose, or cannot be closed from there, by how much, and where
+(host code)."""
 
 from __future__ import annotations
 
@@ -13,6 +14,7 @@ from jaxkin.joints.screws import complement, freedoms
 from jaxkin.linkage.closed_loops import closed_loops
 from jaxkin.linkage.host_closure import ClosedLoops, LoopCoordinates, Travel, closure_twist
 from jaxkin.linkage.linkage import Linkage
+from jaxkin.mobility.loop_freedoms import loop_freedoms
 
 
 @dataclass(frozen=True)
@@ -62,17 +64,22 @@ def opening(linkage: Linkage, unit: str = "") -> Opening | None:
     return worst
 
 
-def check_closed(linkage: Linkage, unit: str, what: str, call: str) -> None:
-    """Raise ValueError if the given pose is open, with the size of the opening and how to close it.
+def check_assembles(linkage: Linkage, unit: str, what: str, call: str) -> None:
+    """Raise ValueError if loops cannot be closed from the given pose, with the size of what stays open.
 
     `what` names the result that cannot be computed then, and `call` is the call that computes it, with `{}` in place of
-    the mechanism.
+    the mechanism. Numbers that JAX traces are not looked at.
     """
-    if (found := opening(linkage, unit)) is not None:
-        raise ValueError(
-            f"{what} cannot be told of a pose that is not closed: {found}; close it first, mechanism.close() says how "
-            f"far parts have to move for that, and write {call.replace('{}', 'mechanism.close().mechanism')}"
-        )
+    still_open = [] if traced(linkage) else [each for each in loop_freedoms(linkage) if not each.closes]
+    if not still_open:
+        return
+    worst = max(still_open, key=lambda each: each.home.travel.residual_norm)
+    found = tell_opening(linkage, unit, closed_loops(linkage, worst.loop_group), worst.home.q)
+    raise ValueError(
+        f"{what} cannot be told of a mechanism that cannot be assembled: where its loops are the least open, {found}; "
+        "give it lengths with which they close, as with_lengths does, or let mechanism.close() try from other poses: "
+        f"where that closes them, write {call.replace('{}', 'mechanism.close().mechanism')}"
+    )
 
 
 def tell_opening(linkage: Linkage, unit: str, loops: ClosedLoops, q: LoopCoordinates) -> Opening:

@@ -26,7 +26,7 @@ from reference.mechanisms import (
     rssr_linkage,
     spherical_linkage,
 )
-from reference.open_poses import assert_same_lengths, pushed, zeroed_elsewhere
+from reference.open_poses import assert_same_lengths, pushed, rounded, zeroed_elsewhere
 
 EVERY = {
     "Watt": catalogue.watt,
@@ -85,15 +85,7 @@ def test_loops_open_by_half_a_turn_close(angle):
 @pytest.mark.parametrize("digits", [6, 9])
 def test_numbers_that_were_rounded_close_to_their_rounding(digits):
     """A planar four-bar in space, by numbers of some digits: its loop never closes to rounding of the arithmetic."""
-    pose = np.eye(4)
-    pose[:3, :3], pose[:3, 3] = Rotation.from_rotvec([0.3, -1.0, 0.7]).as_matrix(), (40.0, -70.0, 25.0)
-    joints = []
-    for joint in pushed(planar_fourbar(), ("rocker", "C"), (3.0, -2.5, 0.0)).all_joints:
-        before, after = (pose @ side for side in (joint.frames_1, joint.frames_2))
-        for side in (before, after):
-            side[:, :3, 3] = np.round(side[:, :3, 3], digits)
-        joints.append(replace(joint, frames_1=before, frames_2=after))
-    mechanism = Mechanism.build(fixed=["ground"], joints=joints)
+    mechanism = rounded(pushed(planar_fourbar(), ("rocker", "C"), (3.0, -2.5, 0.0)), digits)
     found = mechanism.close()
     assert found.closed and 0 < found.residual < 10.0**-digits
     assert any("stay open by" in note for note in found.mechanism.notes) == (found.residual > 1e-11)

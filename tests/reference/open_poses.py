@@ -35,6 +35,19 @@ def zeroed_elsewhere(mechanism: Mechanism, angle: float, seed: int = 0) -> Mecha
     return replace(mechanism, linkage=mechanism.linkage.with_joints(joints))
 
 
+def rounded(mechanism: Mechanism, digits: int) -> Mechanism:
+    """Turn a mechanism in space, in numbers of some digits, of which its loops do not close exactly."""
+    pose = np.eye(4)
+    pose[:3, :3], pose[:3, 3] = Rotation.from_rotvec([0.3, -1.0, 0.7]).as_matrix(), (40.0, -70.0, 25.0)
+    joints = []
+    for joint in mechanism.all_joints:
+        before, after = (pose @ side for side in (joint.frames_1, joint.frames_2))
+        for side in (before, after):
+            side[:, :3, 3] = np.round(side[:, :3, 3], digits)
+        joints.append(replace(joint, frames_1=before, frames_2=after))
+    return Mechanism.build(fixed=["ground"], joints=joints)
+
+
 def assert_same_lengths(one: Mechanism, other: Mechanism) -> None:
     """But for where the follower of the cam stands along its slide, which its pose says."""
     lengths = one.lengths

@@ -29,7 +29,6 @@ from jaxkin.geometry.movements import is_length
 from jaxkin.linkage.coordinates import coordinates
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
-from jaxkin.mobility.open_loops import opening
 from jaxkin.solve.status import Status
 
 MAX_NAMED = 4
@@ -217,7 +216,7 @@ def equilibrium(
     if len(values):  # a force that grows by no more than rounding may fall
         growth = np.where(np.abs(growth) <= rounding_of(values), 0.0, growth)
     loads: dict[str, PerPose] = {}
-    if (len(values) or len(indifferent)) and _has_others(searched, len(drive)):
+    if (len(values) or len(indifferent)) and _has_others(mechanism, len(drive)):
         poses = posed(np.concatenate([values, inputs[indifferent].ravel()]))
         most = HELD * max(float(np.nanmax(np.abs(forces))), weights_of_all(poses, name, masses, gravity))
         loads = _out_of_balance(reactions(poses, masses, gravity=gravity, applied=given), most)
@@ -259,14 +258,8 @@ def _range_and_held(drive: Mapping[Any, Any]) -> tuple[str, PerPose, dict[str, P
     return key, inputs, given
 
 
-def _has_others(searched: Motion, driven: int) -> bool:
-    """Tell whether a mechanism has more freedoms that are not idle than are driven or held.
-
-    As it was assembled, or where it is open there, as with new lengths, in the first closed pose of its motion.
-    """
-    mechanism = searched.mechanism
-    if opening(mechanism.linkage, mechanism.unit) is not None:
-        mechanism = mechanism.at(searched, int(np.argmax(np.asarray(searched.closed))))
+def _has_others(mechanism: Mechanism, driven: int) -> bool:
+    """Tell whether a mechanism has more freedoms that are not idle than are driven or held."""
     found = mechanism.mobility()
     return found.freedoms - found.idle_freedoms > driven
 
