@@ -5,7 +5,7 @@ Each line names first the module of the function that users call.
 - `rates` (velocities, accelerations, jerks), `screw_axes` of them; `motion_law` gives displacements over time.
 - `coupler_curve`: the path of a point, over a `curve_range`, with its `cusps_crossings`.
 - `limits`: how far a drive goes. `limit_search` follows a `motion_curve` past the poses in which the drive locks;
-  `limits_result` is what it finds.
+  `limits_result` is what it finds, of which `limit_of_design` takes each limit to other designs, with derivatives.
 - `assembly_modes`: all closed poses of some inputs, by `mode_search`; `coupled_turns` are modes of their own.
 - `workspace`: a map over two inputs. `grid_flood` fills it by `grid_steps`; `singularities` are where it ends.
 - `mode_regions`: which modes a path over two inputs connects, by the same steps on several `sheets`.

@@ -197,6 +197,16 @@ def _is_home(curve: MotionCurve, begun: CurvePose, at: CurvePose, features: Pose
     return bool(np.abs(home - there).max(initial=0.0) <= SAME_POSE)
 
 
+def moving_column(curve: MotionCurve, here: CurvePose, joints: Sequence[Joint]) -> int:
+    """Find the column that moves fastest where the drive locks, those of joints with one coordinate first.
+
+    `joints` are those of the mechanism.
+    """
+    rates = np.abs(here.tangent)
+    moving = [k for k in curve.free if k != curve.drive and rates[k] > _AT_REST * rates.max()]
+    return min(moving, key=lambda k: (joints[curve.loops.columns[k][0]].freedoms > 1, -rates[k]))
+
+
 def why_locked(joints: Mapping[int, Joint], curve: MotionCurve, here: CurvePose) -> tuple[tuple[str, ...], str]:
     """Name the joints that still move where the drive locks, and say how they stand.
 

@@ -15,11 +15,13 @@ from jaxtyping import Float
 
 from jaxkin._arguments import by_name, check_known, check_mechanism, several
 from jaxkin.effects.determined_drive import check_determined, home_of_drive
+from jaxkin.effects.limit_of_design import Extremum, limit_equation
 from jaxkin.effects.limit_search import (
     CoordinateRange,
     FoundLimit,
     LimitKind,
     find_limit,
+    moving_column,
     why_locked,
     why_singular,
 )
@@ -200,9 +202,14 @@ def _limit(
         owner = joints[joint]
         of = owner.full_names[k]
         reason = f"the range of {of} ends, at {q[end.column]:.6g}"
-        return Limit(at, end.kind, (owner.name,), reason, shown)
+        equation = None if of == name else limit_equation(mechanism, driven, of, shown, None)
+        return Limit(at, end.kind, (owner.name,), reason, shown, equation)
     moving, why = why_locked({index: joints[index] for index in loops.loop_group.joints}, curve, end.here)
-    return Limit(at, end.kind, moving, f"{name} locks: {why}", shown)
+    column = moving_column(curve, end.here, joints)
+    joint, k = loops.columns[column]
+    extremum = Extremum(side, float(loops.units[column]))
+    equation = limit_equation(mechanism, driven, joints[joint].full_names[k], shown, extremum)
+    return Limit(at, end.kind, moving, f"{name} locks: {why}", shown, equation)
 
 
 def _limits(

@@ -6,13 +6,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Array, Float
 
 from jaxkin._guesses import Result
+from jaxkin.effects.limit_of_design import LimitEquation, limit_of_design
 from jaxkin.effects.limit_search import LimitKind
 from jaxkin.effects.mode_plot import draw_modes
 from jaxkin.effects.pose_plot import save_displacements
+from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
 
 
@@ -30,6 +33,27 @@ class Limit(Result):
     """What ends the range, in words."""
     coordinates: Mapping[str, Float[np.ndarray, " _"]]
     """Displacements of each joint at the limit; empty where there is none."""
+    equation: LimitEquation | None = None
+    """What the limit is a solution of; None where there is none, or the range of the drive itself ends."""
+
+    def of(self, design: Mechanism) -> Float[Array, ""]:
+        """Find this limit of another design of the mechanism, such as `mechanism.with_lengths(...)` makes it.
+
+        It has derivatives by all numbers of the design, and works inside `jit`, `vmap` and `grad`, and so in losses and
+        constraints of `jk.optimize`: `limit.of(motion.mechanism)`. The pose of the limit is led to the design in steps:
+        the joints that lock, or the range that ends, stay the same; whether another limit comes first there,
+        `jk.limits` of the design tells. NaN where it is lost on the way, as where the drive makes full turns.
+
+        Raises ValueError for kinds `FAR` and `LOST`, and for mechanisms with other joints.
+        """
+        if self.equation is not None:
+            return limit_of_design(self.equation, design)
+        if self.kind in (LimitKind.NONE, LimitKind.RANGE):  # none, or that of the drive itself
+            return jnp.asarray(self.value, float)
+        raise ValueError(
+            f"the limit where {self.reason} is the solution of no equation: it is not known of other designs; give "
+            "jk.limits a range with ranges=, whose end is"
+        )
 
 
 @dataclass(frozen=True, eq=False, repr=False)
