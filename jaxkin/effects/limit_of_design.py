@@ -38,13 +38,13 @@ LAST_STEPS = 6
 LONGEST_STEP = 0.2
 """Longest of these steps, radians or characteristic lengths: farther away a parabola is no model of q(u)."""
 SETTLED = 1e-6
-"""Length of a last step, radians or characteristic lengths, up to which the limit counts as found. What is left is the
-square of that."""
+"""Length of a last step, radians or characteristic lengths, up to which the limit counts as found, or the root of
+rounding where that is more, in float32. What is left is the square of that."""
 STATIC = {"static": True}
 
 
 class Extremum(NamedTuple):
-    """Of a limit where the drive locks (static)."""
+    """Of a limit where the drive locks. No program is compiled for its numbers: both limits of a drive share one."""
 
     side: float
     """1 where the drive is highest, -1 where it is lowest."""
@@ -63,7 +63,7 @@ class LimitEquation:
     """The coordinate u that takes its place: the one whose range ends, or one that moves while the drive locks."""
     held: tuple[str, ...] = field(metadata=STATIC)
     """Coordinates that rest at 0."""
-    extremum: Extremum | None = field(metadata=STATIC)
+    extremum: Extremum | None
     """What the drive has where it locks; None where u is at an end of its range."""
     joints: tuple[Joint, ...]
     """Those of the design that is known."""
@@ -120,7 +120,8 @@ def _limit(equation: LimitEquation, design: Mechanism) -> Float[Array, ""]:
     if equation.extremum is not None:
         side, unit = equation.extremum
         first, second = _entry(rates.first, drive), _entry(rates.second, drive)
-        is_limit &= (found.change <= SETTLED * unit) & (side * second < 0)
+        settled = max(SETTLED, float(jnp.finfo(second.dtype).eps) ** 0.5)
+        is_limit &= (found.change <= settled * unit) & (side * second < 0)
         value = value - first**2 / (2 * jnp.where(is_limit, second, 1.0))
     return jnp.where(is_limit, value, jnp.nan)
 

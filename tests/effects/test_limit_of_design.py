@@ -96,7 +96,7 @@ def differences(limit_of, length):
 )
 def test_derivatives_are_differences_of_limits_that_are_searched(mechanism, drive, key, search):
     found, length = jk.limits(mechanism, drive, **search), float(mechanism.lengths[key])
-    other = 1.07 * length
+    other = 1.02 * length
     for side in ("lower", "upper"):
 
         def of_design(length, side=side):
