@@ -54,12 +54,10 @@ def _of_mass(
         return wrench_at(arm, force)
     turning = twist[:3]
     acceleration = velocity_at(change, arm) + cross(turning, velocity_at(twist, arm))
-    rotation = displaced[:, :3]
-
-    def times_inertia(vector: Float[Array, "3 poses"]) -> Float[Array, "3 poses"]:
-        """Multiply a vector by R I R^T."""
-        return turned(rotation, turned(inertia[..., None], turned(rotation.swapaxes(0, 1), vector)))
-
-    torque = times_inertia(change[:3]) + cross(turning, times_inertia(turning))
+    # In the axes of the part its inertia is constant. By sums, which XLA computes once for all that uses them.
+    rotation, both = displaced[:, :3], jnp.stack([change[:3], turning], axis=1)
+    own = jnp.sum(rotation[:, :, None] * both[:, None], axis=0)
+    of_inertia = jnp.sum(inertia[:, :, None, None] * own[None], axis=1)
+    torque = jnp.sum(rotation * (of_inertia[:, 0] + cross(own[:, 1], of_inertia[:, 1]))[None], axis=1)
     wrench = wrench_at(arm, force - mass * lever * acceleration)
     return jnp.concatenate([wrench[:3] - torque / lever, wrench[3:]])
