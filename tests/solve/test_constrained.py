@@ -114,3 +114,36 @@ def test_second_derivatives_by_the_right_sides_backwards(outer):
         return jnp.sum(minimise_constrained(matrix, scale * slope, equations, scale * right) ** 2)
 
     np.testing.assert_allclose(outer(jax.jacrev(square))(1.3), 2 * square(1.0), rtol=1e-12)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("rows", "held"), [(3, 3), (2, 3), (5, 4)])
+@pytest.mark.parametrize("singular", [False, True])
+def test_unknowns_in_no_equation_are_those_whose_columns_are_zero(rows, held, singular):
+    """Minima and their derivatives backwards, also where a pose among regular ones is singular.
+
+    Tolerance: rounding times the condition, about 1e2.
+    """
+    rng, count = np.random.default_rng(rows), held + 3
+    factor = rng.normal(size=(count, count, POSES))
+    matrix = jnp.asarray(np.einsum("ikp,jkp->ijp", factor, factor) + np.eye(count)[..., None])
+    equations = rng.normal(size=(rows, held, POSES))
+    if singular:
+        equations[-1, :, 1] = equations[0, :, 1]
+    equations, slope, right = (jnp.asarray(each) for each in (equations, factor[0], rng.normal(size=(rows, POSES))))
+    weights = jnp.asarray(rng.normal(size=(count, 1)))
+
+    def minimum(matrix, slope, equations, right, columns):
+        zeros = jnp.zeros((rows, columns, POSES))
+        return minimise_constrained(matrix, slope, jnp.concatenate([zeros, equations], axis=1), right)
+
+    given = matrix, slope, equations, right
+    found, expected = (jax.jit(minimum, static_argnums=4)(*given, columns) for columns in (0, 3))
+    np.testing.assert_allclose(found, expected, atol=1e-11 * float(jnp.abs(expected).max()))
+
+    def loss(columns, *given):
+        return jnp.sum(weights * minimum(*given, columns) ** 2)
+
+    both = [jax.jit(jax.grad(loss, argnums=(1, 2, 3, 4)), static_argnums=0)(columns, *given) for columns in (0, 3)]
+    for one, other in zip(*both, strict=True):
+        np.testing.assert_allclose(one, other, atol=1e-10 * float(jnp.abs(other).max()))

@@ -7,9 +7,9 @@ part. All of it is computed by `pose_groups`.
 
 `drive` pairs wrenches with the derivatives by each input (virtual work; of weights at rest it differentiates their
 `potential`). `reactions` solves the `balance` of all parts for the wrenches of the joints, by the `joint_balance` of
-each and the `balance_equations`: two routes to the same drive force. What the balance leaves open is `undetermined`.
-`friction` finds from the same balance the friction in joints, for both: `friction_of` says of which, and
-`friction_result` what it does. `equilibrium` and `transmission` ask these two.
+each and the `balance_equations`, written in the `wrench_axes` of planar loops: two routes to the same drive force. What
+the balance leaves open is `undetermined`. `friction` finds from the same balance the friction in joints, for both:
+`friction_of` says of which, and `friction_result` what it does. `equilibrium` and `transmission` ask these two.
 
 Forces are in newtons, torques in newton metres, masses in kilograms and inertias in kg m^2. Points and displacements
 are in the unit of the mechanism, as everywhere; lengths without a unit are taken for metres.

@@ -18,8 +18,9 @@ T (t + g f) where the equations hold: so with E the matrix of the equations T (S
     sum over joints of |w|^2 - 2 (T S^T w) . T (t + g f) + |T (t + g f)|^2, plus sum over couplings of f^2
 
 has the same minimum, and is well-conditioned in every pose. The equations are not where a small force holds a large
-one, as near dead centres: see `jaxkin.solve.linear.constrained`. A freedom that nothing drives may leave no x that
-satisfies them: then what violates them least, which is what would hold the freedom.
+one, as near dead centres: see `jaxkin.solve.linear.constrained`. Of loops in a plane half the components of x are in
+none of them: see `jaxkin.effects.forces.wrench_axes`. A freedom that nothing drives may leave no x that satisfies them:
+then what violates them least, which is what would hold the freedom.
 """
 
 from __future__ import annotations
@@ -38,10 +39,12 @@ from jaxkin.effects.forces.balance_equations import (
     gradient_by_chords,
     hessian,
     stacked,
+    wrenches_of_chords,
 )
-from jaxkin.effects.forces.joint_balance import JointBalance, joint_balances, norm_gradients, norm_hessians
+from jaxkin.effects.forces.joint_balance import JointBalance, joint_balances, norm_gradients
 from jaxkin.effects.forces.places import Places
 from jaxkin.effects.forces.screws import Scale, Twist, Wrench, cross
+from jaxkin.effects.forces.wrench_axes import WrenchAxes, wrench_axes
 from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.joints.joint import Joint, JointCoordinate
@@ -173,7 +176,8 @@ def _solve(
     wrenches = [carried_by.get(number, jnp.zeros((6, poses))) for number in range(len(linkage.joints))]
     strengths = [none] * len(ties)
     for loops in balanced_loops(linkage):
-        of_joints, of_couplings = _solve_loops(loops, joints, wrenches, loads, ties)
+        axes = wrench_axes(linkage, loops.plane, [(n, k) for n in loops.joints for k in free[n]], found.screws)
+        of_joints, of_couplings = _solve_loops(loops, axes, joints, wrenches, loads, ties)
         for number, wrench in zip(loops.joints, of_joints, strict=True):
             wrenches[number] = wrench
         for number, strength in zip(loops.couplings, of_couplings, strict=True):
@@ -191,6 +195,7 @@ def _solve(
 
 def _solve_loops(
     loops: BalancedLoops,
+    axes: WrenchAxes,
     every: Sequence[JointBalance],
     carried: Sequence[Wrench],
     every_load: Sequence[Float[Array, "free poses"]],
@@ -206,21 +211,21 @@ def _solve_loops(
     if not (loops.chords or ties):
         return begun, []
     poses = joints[0].arm.shape[1]
-    system = equations(loops, joints, ties, poses)
+    system = equations(loops, joints, ties, axes, poses)
     load = stacked([joint.scaled(own) for joint, own in zip(joints, loads, strict=True)], poses)
     right = load - stacked([joint.scaled(joint.along(w)) for joint, w in zip(joints, begun, strict=True)], poses)
     arms = jnp.stack([joint.arm for joint in joints], axis=1)
-    by_wrenches = norm_gradients(arms, jnp.stack(begun, axis=1))
-    by_chords = column_sums(system.chords, load) - gradient_by_chords(loops, by_wrenches)
-    slope = jnp.concatenate([by_chords, column_sums(system.couplings, right)])
-    z = minimise_constrained(hessian(loops, norm_hessians(arms), system), slope, system.rows, right)
-    count = 6 * len(loops.chords)
-    unknown = z[:count].reshape(len(loops.chords), 6, poses)
+    by_wrenches = gradient_by_chords(loops, axes, norm_gradients(arms, jnp.stack(begun, axis=1)))
+    absent = axes.absent * len(loops.chords)
+    by_held = column_sums(system.chords, load) - by_wrenches[absent:]
+    slope = jnp.concatenate([-by_wrenches[:absent], by_held, column_sums(system.couplings, right)])
+    z = minimise_constrained(hessian(loops, axes, arms, system), slope, system.rows, right)
+    unknown = wrenches_of_chords(loops, axes, z)
     found = [
         w + sum((share * unknown[c] for c, share in enumerate(shares) if share), jnp.zeros((6, poses)))
         for w, shares in zip(begun, loops.shares, strict=True)
     ]
-    return found, list(z[count:])
+    return found, list(z[6 * len(loops.chords) :])
 
 
 def tree_wrenches(linkage: Linkage, acting: dict[str, Any], poses: int) -> dict[int, Wrench]:

@@ -65,13 +65,3 @@ def norm_gradients(arms: Float[Array, "3 joints poses"], wrenches: Float[Array, 
     """Differentiate |w|^2 / 2 with respect to the wrench w of each joint, the norm taken at its point."""
     own = at_points(arms, wrenches)
     return jnp.concatenate([own[:3], own[3:] + cross(arms, own[:3])])
-
-
-def norm_hessians(arms: Float[Array, "3 joints poses"]) -> Float[Array, "6 6 joints poses"]:
-    """Differentiate |w|^2 / 2 twice with respect to the wrench w of each joint, the norm taken at its point."""
-    x, y, z = arms
-    none = jnp.zeros_like(x)
-    lever = jnp.stack([none, -z, y, z, none, -x, -y, x, none]).reshape(3, 3, *x.shape)
-    eye = jnp.broadcast_to(jnp.eye(3)[..., None, None], lever.shape)
-    outer = (1 + jnp.sum(arms**2, axis=0)) * eye - arms[:, None] * arms[None]
-    return jnp.concatenate([jnp.concatenate([eye, -lever], axis=1), jnp.concatenate([lever, outer], axis=1)])

@@ -12,6 +12,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from jaxkin.solve.linear.cramer import solve_three
 from jaxkin.solve.linear.gram import Matrix, Vector, column_products
 from jaxkin.solve.linear.least_norm import MAX_UNROLLED_ROWS, factor_normal_equations, solve_least_norm_refined
 from jaxkin.solve.system.equation_blocks import EquationBlock
@@ -77,16 +78,9 @@ def _substitute_forward(
             rest = rest - jnp.sum(jacobian[np.ix_(block.rows, known)][:, :, None] * found, axis=1)
         own = jacobian[np.ix_(block.rows, block.columns)]
         if regular and own.shape[:2] == (3, 3):
-            here = _cramer(own, rest)
+            here = solve_three(own, rest)
         else:
             here = column_products(own, factor_normal_equations(own, damping)(rest))
         found = jnp.concatenate([found, here])
         known += block.columns
     return scatter_rows(found, known, jacobian.shape[1])
-
-
-def _cramer(own: Float[Array, "3 3 poses"], right: Float[Array, "3 sides poses"]) -> Float[Array, "3 sides poses"]:
-    """Solve systems of three equations by Cramer's rule: determinants as triple products of the rows."""
-    a, b, c = own
-    normals = jnp.stack([jnp.cross(b, c, axis=0), jnp.cross(c, a, axis=0), jnp.cross(a, b, axis=0)])
-    return jnp.sum(normals[:, :, None] * right[:, None], axis=0) / jnp.sum(a * normals[0], axis=0)

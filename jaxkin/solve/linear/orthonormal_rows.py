@@ -46,7 +46,12 @@ def orthonormal_rows(matrix: Matrix) -> OrthonormalRows:
     """Make rows orthonormal in each pose."""
     if not len(matrix):
         return OrthonormalRows(matrix, matrix[:, :0], matrix[:, :0])
-    largest = jnp.max(jnp.sum(matrix * matrix, axis=1), axis=0, initial=0.0)
+    squares = jnp.sum(matrix * matrix, axis=1)
+    if len(matrix) == 1:
+        kept = squares[:, None] > 0
+        over = jnp.where(kept, 1.0, 0.0) / jnp.sqrt(jnp.where(kept, squares[:, None], 1.0))
+        return OrthonormalRows(over * matrix, over, jnp.where(kept, 0.0, 1.0))
+    largest = jnp.max(squares, axis=0)
     rounding = float(jnp.finfo(matrix.dtype).eps)
     least = rounding ** (2 * NEGLIGIBLE) * largest
     if len(matrix) <= MAX_ROWS_IN_TURN:
