@@ -37,7 +37,7 @@ class WrenchAxes(NamedTuple):
         if self.axes is None:
             return vectors
         axes = self.axes.reshape(3, 3, *[1] * (vectors.ndim - 2), -1)
-        return sum(axes[:, k] * vectors[k] for k in range(3))
+        return axes[:, 0] * vectors[0] + axes[:, 1] * vectors[1] + axes[:, 2] * vectors[2]
 
     def in_order(self, rows: Float[Array, "6 *rows poses"]) -> Float[Array, "6 *rows poses"]:
         """Put components of a wrench in these axes, or what belongs to them, in order."""
