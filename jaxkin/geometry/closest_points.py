@@ -26,6 +26,7 @@ from jaxkin.geometry.mesh_elements import (
     height_squares,
     inside_face,
     nearest_of_edges,
+    nearest_on_edges,
     through_faces,
 )
 from jaxkin.geometry.rigid import Rigid, inverse
@@ -210,24 +211,32 @@ def _deepest(moved: Mesh, samples: Float[Array, "3 samples poses"], fixed: Mesh)
         return _nothing(poses, -1.0)
     planes, rays, edges = Planes.of(fixed), Planes.of(fixed, _RAY), Edges.of(fixed)
 
-    def step(best: tuple[Array, Array], sample: Array):
-        point = corner_of(samples, sample)
-        second, third, ahead = rays.of_points(point)
-        inside = jnp.sum(inside_face(second, third) & (ahead < 0), axis=1) % 2 == 1
-        on_faces = jnp.min(height_squares(planes, point), axis=1)
-        on_edges = jnp.min(nearest_of_edges(Edges(point, 0 * point), edges)[0], axis=1)
-        depth = jnp.where(inside, jnp.minimum(on_faces, on_edges), -1.0)
-        deeper = depth > best[0]
-        return (jnp.where(deeper, depth, best[0]), jnp.where(deeper, sample, best[1])), None
+    def is_inside(sample: Array) -> Bool[Array, " poses"]:
+        second, third, ahead = rays.of_points(corner_of(samples, sample))
+        return jnp.sum(inside_face(second, third) & (ahead < 0), axis=1) % 2 == 1
 
-    start = jnp.full(poses, -1.0), jnp.zeros(poses, int)
-    (depth, sample), _ = jax.lax.scan(step, start, jnp.arange(samples.shape[1]))
+    inside = jax.lax.map(is_inside, jnp.arange(samples.shape[1]))
+    somewhere = jnp.any(inside, axis=1)
+    order, count = jnp.argsort(~somewhere), jnp.sum(somewhere)
+
+    def deeper(best: tuple[Array, Array, Array]) -> tuple[Array, Array, Array]:
+        depth, of, number = best
+        sample = order[number]
+        point = corner_of(samples, sample)
+        on_faces = jnp.min(height_squares(planes, point), axis=1)
+        on_edges = jnp.min(nearest_on_edges(point, edges)[0], axis=1)
+        found = jnp.where(inside[sample], jnp.minimum(on_faces, on_edges), -1.0)
+        return jnp.maximum(found, depth), jnp.where(found > depth, sample, of), number + 1
+
+    # samples that are inside nowhere cost no distances
+    begun = jnp.full(poses, -1.0), jnp.zeros(poses, int), jnp.array(0)
+    depth, sample, _ = jax.lax.while_loop(lambda best: best[2] < count, deeper, begun)
     point = corner_of(samples, sample)
     face = jnp.argmin(height_squares(planes, point), axis=1)
+    edge = jnp.argmin(nearest_on_edges(point, edges)[0], axis=1)
     plane = planes.at(face)
     second, third, _ = (each[:, 0] for each in plane.of_points(point))
-    edge = jnp.argmin(nearest_of_edges(Edges(point, 0 * point), edges)[0], axis=1)
-    square, _, place = (each[:, 0] for each in nearest_of_edges(Edges(point, 0 * point), edges.at(edge)))
+    square, place = (each[:, 0] for each in nearest_on_edges(point, edges.at(edge)))
     own = Points(*(each[sample] for each in moved.samples))
     foot = _Found(height_squares(plane, point)[:, 0], own, _on_faces(fixed.faces[face], second, third))
     return _nearer(foot, _Found(square, own, _on_edges(fixed.edges[edge], place)))._replace(square=depth)

@@ -92,6 +92,14 @@ def nearest_of_edges(one: Edges, other: Edges) -> tuple[Array, Array, Array]:
     return _dot(gap, gap), s, t + 0 * s
 
 
+def nearest_on_edges(points: Float[Array, "3 poses 1"], edges: Edges) -> tuple[Array, Array]:
+    """Compute the square of the distance of points from edges, and where on each the nearest point is, as its share."""
+    off = points - edges.start
+    place = jnp.clip(_ratio(_dot(edges.along, off), _dot(edges.along, edges.along)), 0.0, 1.0)
+    gap = off - place * edges.along
+    return _dot(gap, gap), place
+
+
 class Planes(NamedTuple):
     """Faces by their first corner, and by vectors whose products with what is beside it are its two other weights and
     its height; components first."""

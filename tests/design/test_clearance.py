@@ -85,6 +85,7 @@ def test_convex_solids_against_a_quadratic_program(seed):
         assert found[pose] == pytest.approx(distance, rel=1e-6) if distance > 1e-3 else found[pose] <= 1e-3
 
 
+@pytest.mark.long
 def test_as_clashes_finds_them(tmp_path):
     """Of drawn solids `jk.clashes` finds the same clearances, and says of the same poses that they clash."""
     solids = {
@@ -108,6 +109,7 @@ def test_as_clashes_finds_them(tmp_path):
     assert (expected.clearances < 0).any()
 
 
+@pytest.mark.long
 def test_derivatives_are_differences():
     """By a length, by the drive, by an extra variable and by a radius, of bars and of a solid, apart and crossing."""
     mechanism, angles = planar_fourbar(1.0), np.linspace(0.3, 1.5, 7)
@@ -139,6 +141,7 @@ def test_derivatives_are_differences():
         np.testing.assert_allclose(backward, found, atol=1e-12)
 
 
+@pytest.mark.long
 def test_many_designs_at_once():
     mechanism, angles = planar_fourbar(1.0), np.linspace(0.0, 1.0, 5)
     post = design.solid("ground", trimesh.creation.icosphere(subdivisions=1, radius=0.3))
