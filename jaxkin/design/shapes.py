@@ -135,7 +135,9 @@ def solid(part: str, of: Mechanism | trimesh.Trimesh, *, hull: bool = False) -> 
     """
     triangles = _triangles(text(part, "solid: part"), of)
     if yes_or_no(hull, "solid: hull"):
-        triangles = _hull(triangles)
+        from trimesh.convex import convex_hull
+
+        triangles = np.asarray(convex_hull(triangles.reshape(-1, 3)).triangles, float)
     if len(triangles) > MAX_TRIANGLES:
         raise ValueError(
             f"solid: {part!r} has {len(triangles):,} triangles, up to {MAX_TRIANGLES:,} are compared: write hull=True "
@@ -171,16 +173,3 @@ def _triangles(part: str, of: Mechanism | trimesh.Trimesh) -> Triangles:
         why = nearest(part, drawn) if drawn else ": solids are those of files, jk.load(files).mechanism(fixed=...)"
         raise ValueError(f"solid: the mechanism has no solid of {part!r}{why}")
     return np.asarray(drawn[part].triangles, float)
-
-
-def _hull(triangles: Triangles) -> Triangles:
-    """Make the convex hull of triangles, wound outwards."""
-    from scipy.spatial import ConvexHull
-
-    corners = triangles.reshape(-1, 3)
-    found = ConvexHull(corners)
-    sides = corners[found.simplices]
-    normals = np.cross(sides[:, 1] - sides[:, 0], sides[:, 2] - sides[:, 0])
-    inward = np.sum(normals * found.equations[:, :3], axis=-1) < 0
-    sides[inward] = sides[inward][:, ::-1]
-    return sides

@@ -64,10 +64,8 @@ def closest_points(one: Mesh, other: Mesh, displacements: Rigid) -> Closest:
     """
     one, other, displacements = jax.lax.stop_gradient(jax.tree.map(jnp.asarray, (one, other, displacements)))
     back = inverse(displacements)
-    here, there = (
-        _moved(other.corners, displacements),
-        _moved(one.corners, back),
-    )  # in the axes of the one; of the other
+    here = _moved(other.corners, displacements)  # in the axes of the one
+    there = _moved(one.corners, back)  # in the axes of the other
     apart = _nearer(
         _edges_apart(other, here, one),
         _swapped(_corners_over_faces(one, there, other)),

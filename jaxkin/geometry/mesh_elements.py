@@ -132,6 +132,7 @@ class Planes(NamedTuple):
 
 
 def inside_face(second: Array, third: Array) -> Array:
+    """Tell whether points are above or below a face, by the weights of its second and its third corner."""
     return (second >= 0) & (third >= 0) & (second + third <= 1)
 
 
