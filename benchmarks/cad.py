@@ -188,6 +188,37 @@ def moved(mechanism: Mechanism, size: float) -> tuple[int, int]:
     return closed, poses
 
 
+def apart(data: Mapping[str, Any], found: Mechanism, scale: float, size: float) -> float:
+    """Measure how far labelled points are from where the known joints move them, in metres: NaN where no pose tells."""
+    true = true_mechanism(data)
+    body, drives, distances = bodies_of(found), [], []
+    for drive in true.mobility().drivable:
+        name, coordinate = drive.rsplit(".", 1)
+        joint = true.joints[name]
+        one, other = (body[part] for part in joint.parts)
+        same = next((each for each in found.all_joints if {body[part] for part in each.parts} == {one, other}), None)
+        if same is None or coordinate not in same.coordinates:
+            return float("nan")
+        sign = np.sign(joint.frames_1[0][:3, 2] @ same.frames_1[0][:3, 2]) * (1 if body[same.parts[0]] == one else -1)
+        turns = coordinate == "phi"
+        reach = 0.5 if turns else size * scale / 10
+        drives.append(
+            (drive, f"{same.name}.{coordinate}", np.linspace(-reach, reach, 41), sign / (1 if turns else scale))
+        )
+    for driven, _, path, _ in drives:
+        truly = true.sweep({drive: path if drive == driven else 0 * path for drive, *_ in drives})
+        motion = found.sweep({name: (path if drive == driven else 0 * path) * k for drive, name, _, k in drives})
+        closed = np.asarray(truly.closed & motion.closed)
+        for each in (label[side] for label in data["joints"] for side in "ab"):
+            point = np.array(each["point"])
+            places = [
+                poses[:, :3, :3] @ (point / unit) * unit + poses[:, :3, 3] * unit
+                for poses, unit in ((truly.transforms[each["part"]], 1.0), (motion.transforms[each["part"]], scale))
+            ]
+            distances.extend(np.linalg.norm(places[0] - places[1], axis=-1)[closed])
+    return max(distances, default=float("nan"))
+
+
 def row(path: Path, verbose: bool) -> str:
     """One line of the table."""
     start = processor_seconds()
@@ -208,7 +239,8 @@ def row(path: Path, verbose: bool) -> str:
             for v, each in pairs:
                 print(f"  {v}: {each['type']} {each['a']['part']} - {each['b']['part']}")
     corners = np.array([part.box for part in assembly.parts])
-    closed, poses = moved(mechanism, float(np.linalg.norm(np.ptp(corners, axis=(0, 1)))))
+    size = float(np.linalg.norm(np.ptp(corners, axis=(0, 1))))
+    closed, poses = moved(mechanism, size)
     cells = [
         f"{name}{' (export)' if said else ''}",
         len(assembly.parts),
@@ -218,6 +250,7 @@ def row(path: Path, verbose: bool) -> str:
         mobility.freedoms,
         (not said) + len(mobility.drivable),
         f"{closed} of {poses}",
+        f"{1e3 * apart(data, mechanism, METRE[assembly.unit], size):.1e}" if data else "-",
         f"{seconds:.1f}",
     ]
     return "| " + " | ".join(map(str, cells)) + " |"
@@ -240,7 +273,8 @@ def main(folder: str, names: Collection[str]) -> None:
     """Print the table of all assemblies in a folder, or of those named."""
     jax.config.update("jax_enable_x64", True)
     paths = assemblies(Path(folder), names)
-    head = ["file", "parts", "bodies", *VERDICTS, "useful freedoms", "freedoms", "lines", "closed", "processor seconds"]
+    head = ["file", "parts", "bodies", *VERDICTS, "useful freedoms", "freedoms"]
+    head += ["lines", "closed", "apart [mm]", "processor seconds"]
     print("| " + " | ".join(head) + " |\n|" + "---|" * len(head))
     for path in paths:
         print(row(path, verbose=bool(names)), flush=True)
