@@ -121,3 +121,9 @@ def extra(given: Mapping[str, Any], name: str, what: str, shapes: tuple[tuple[in
         expected = " or ".join(map(str, shapes))
         raise ValueError(f"{what}: the extra variable {name!r} must have the shape {expected}, got {found.shape}")
     return found
+
+
+def extra_point(given: Mapping[str, Any], name: str, what: str) -> Any:
+    """Find the extra variable that is a point (3,), or one (2,) in the plane z = 0; ValueError as of `extra`."""
+    found = extra(given, name, what, ((2,), (3,)))
+    return jnp.append(found, 0.0) if found.shape == (2,) else found

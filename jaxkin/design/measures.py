@@ -45,10 +45,8 @@ class PartPoint:
     def path(self, motion: Motion, extras: Mapping[str, Any]) -> Float[Array, "poses 3"]:
         """Compute where the point is in every pose; (x, y) is in the plane z = 0."""
         if self.extra is None:
-            found = jnp.asarray(self.given, float)
-        else:
-            found = given.extra(extras, self.extra, f"the point of {self.part!r}", ((2,), (3,)))
-        return motion.points(self.part, jnp.append(found, 0.0) if found.shape == (2,) else found)
+            return motion.points(self.part, jnp.asarray(self.given, float))
+        return motion.points(self.part, given.extra_point(extras, self.extra, f"the point of {self.part!r}"))
 
 
 def part_point(part: str, point: Any, what: str) -> PartPoint:

@@ -80,8 +80,7 @@ class Bar:
             raise ValueError(
                 f"bar: {self.part!r} has no joint {end.name!r}{nearest(end.name, joints)}, nor is it an extra variable"
             )
-        found = given.extra(extras, end.name, f"bar of {self.part!r}", ((2,), (3,)))
-        return jnp.append(found, 0.0) if found.shape == (2,) else found
+        return given.extra_point(extras, end.name, f"bar of {self.part!r}")
 
 
 @jax.tree_util.register_dataclass

@@ -10,6 +10,7 @@ All pairs are compared, one element of the moved mesh at a time with all of the 
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import reduce
 from typing import Any, NamedTuple
 
 import jax
@@ -66,7 +67,8 @@ def closest_points(one: Mesh, other: Mesh, displacements: Rigid) -> Closest:
     back = inverse(displacements)
     here = _moved(other.corners, displacements)  # in the axes of the one
     there = _moved(one.corners, back)  # in the axes of the other
-    apart = _nearer(
+    apart = _best(
+        jnp.less,
         _edges_apart(other, here, one),
         _swapped(_corners_over_faces(one, there, other)),
         _corners_over_faces(other, here, one),
@@ -74,7 +76,7 @@ def closest_points(one: Mesh, other: Mesh, displacements: Rigid) -> Closest:
     deep = [_deepest(other, _moved(other.samples.of(other), displacements), one)]
     deep.append(_swapped(_deepest(one, _moved(one.samples.of(one), back), other)))
     pierced = [_pierced(other, here, one), _swapped(_pierced(one, there, other))]
-    inside, through = _deeper(*deep), _deeper(*pierced)
+    inside, through = _best(jnp.greater, *deep), _best(jnp.greater, *pierced)
     overlap = _chosen(inside.square >= 0, inside, through)
     found = _chosen(overlap.square >= 0, overlap, apart)
     # the function of each pair of elements has the moved mesh first
@@ -108,18 +110,9 @@ def _chosen(which: Bool[Array, " poses"], first: _Found, second: _Found) -> _Fou
     return jax.tree.map(either, first, second)
 
 
-def _nearer(*found: _Found) -> _Found:
-    best = found[0]
-    for each in found[1:]:
-        best = _chosen(each.square < best.square, each, best)
-    return best
-
-
-def _deeper(*found: _Found) -> _Found:
-    best = found[0]
-    for each in found[1:]:
-        best = _chosen(each.square > best.square, each, best)
-    return best
+def _best(better: Callable[[Array, Array], Array], *found: _Found) -> _Found:
+    """Take at each displacement the one whose square is better, the first of equal ones."""
+    return reduce(lambda best, each: _chosen(better(each.square, best.square), each, best), found)
 
 
 def _swapped(found: _Found) -> _Found:
@@ -237,7 +230,8 @@ def _deepest(moved: Mesh, samples: Float[Array, "3 samples poses"], fixed: Mesh)
     square, place = (each[:, 0] for each in nearest_on_edges(point, edges.at(edge)))
     own = Points(*(each[sample] for each in moved.samples))
     foot = _Found(height_squares(plane, point)[:, 0], own, _on_faces(fixed.faces[face], second, third))
-    return _nearer(foot, _Found(square, own, _on_edges(fixed.edges[edge], place)))._replace(square=depth)
+    on_edge = _Found(square, own, _on_edges(fixed.edges[edge], place))
+    return _best(jnp.less, foot, on_edge)._replace(square=depth)
 
 
 def _pierced(moved: Mesh, here: Float[Array, "3 corners poses"], fixed: Mesh) -> _Found:
