@@ -105,6 +105,9 @@ def body_colors(bodies: Mapping[str, Sequence[str]], fixed: Collection[str]) -> 
 
 
 def body_label(parts: Sequence[str], solids: Iterable[Part]) -> str:
-    """Tell what a legend calls a body: its heaviest part, and how many more it has."""
+    """Tell what a legend calls a body: its heaviest part, and how many more, or which where that is no longer."""
     name = body_name(parts, {part.name: part for part in solids})
-    return name if len(parts) == 1 else f"{name} and {len(parts) - 1} more"
+    if len(parts) == 1:
+        return name
+    counted, listed = f"{name} and {len(parts) - 1} more", ", ".join([name, *(part for part in parts if part != name)])
+    return listed if len(listed) <= len(counted) else counted

@@ -73,7 +73,7 @@ def test_bodies_have_one_colour_and_all_their_parts(boxes, tmp_path):
     _, data = written(swing(boxes), tmp_path)
     assert [(body["name"], body["fixed"], body["parts"]) for body in data["bodies"]] == [
         ("base", True, [0]),
-        ("arm and 1 more", False, [1, 2]),
+        ("arm, a", False, [1, 2]),
         ("lid", False, [3]),
     ]
     for number, body in enumerate(data["bodies"]):
