@@ -72,7 +72,7 @@ def _has_work(part: str, hinge: Joint, measured: Measured) -> bool:
     if hinge.evidence is None:
         return False
     if hinge.evidence.kind is EvidenceKind.ENCLOSED:
-        return any(each.part in hinge.parts for each in measured.steppers)
+        return any(each.part in hinge.parts for each in measured.motors)
     if not has_play(hinge.evidence):
         return False
     solid = next(each for each in measured.parts if each.name == part)

@@ -36,10 +36,11 @@ def not_idle(mechanism: Mechanism) -> int:
     return useful_freedoms(mechanism) and mechanism.mobility().useful + mechanism.mobility().spins
 
 
-def seats_of(mechanism: Mechanism, inexact: bool, bearings: Collection[str]) -> list[Inference]:
+def seats_of(mechanism: Mechanism, inexact: bool, turning_in: Collection[str]) -> list[Inference]:
     """Find bodies between which faces leave slides that move nothing else: a bracket on a step, a plate between two
     cheeks; and rods that are set into each other as a rod end into its rod, which leave a turn, where the assembly is
-    `inexact`: where exact contacts do not determine all of it. What is in one of the `bearings` turns there.
+    `inexact`: where exact contacts do not determine all of it. What is on one of `turning_in`, bearings and
+    motors, turns there.
 
     Only where something moves: of a mechanism that is locked nothing is known to be of no use. Seats on both sides of a
     body that would hold two others to each other which move by a joint, or, where they are flat, over a roller, are not
@@ -63,7 +64,7 @@ def seats_of(mechanism: Mechanism, inexact: bool, bearings: Collection[str]) -> 
         turning = turning and not {owner[part] for part in joint.parts} & on_threads
         if turning and {owner[part] for part in joint.parts} & ground:
             turning = _is_pin_of_fork(mechanism, joint, owner, ground)
-        screwed = turning and not {*joint.parts} & {*bearings} and _is_in_line(mechanism, joint, owner)
+        screwed = turning and not {*joint.parts} & {*turning_in} and _is_in_line(mechanism, joint, owner)
         if joint.kind is JointKind.FIXED and joint.name in mechanism.contacts and joint.evidence:
             result.append(Inference(joint.parts, joint.evidence))
             continue

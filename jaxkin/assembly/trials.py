@@ -65,6 +65,8 @@ class Trials:
         self.bearings = {name for each in self.measured.bearings for name in (each.outer, each.inner)}
         self.bearings |= {each.part.name for each in self.measured.closed_bearings}
         """The rings of bearings, and bearings that are one part each."""
+        self.motors = {each.part for each in self.measured.motors}
+        """Motors that are one part with their shaft."""
         self.fasteners = set[str]()
         """Parts that were taken for fasteners in some trial."""
 

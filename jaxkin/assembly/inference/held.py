@@ -32,6 +32,9 @@ LIFTED = 0.15
 """Distance from a face, over the radius of a pin, up to which a bolt of a pattern clamps there: plates are drawn with
 gaps of a tenth of a millimetre, and guide pins end a millimetre before the floor of their holes."""
 
+BESIDE = 2.0
+"""Gap between two arms on one shaft, over its radius, at most: carriages on a rod start farther from its ends."""
+
 
 def with_hosts(every: Sequence[Stack], known: Known) -> list[Stack]:
     """Find the stacks with the parts that their fasteners are one body with already: these hold them, too; and whether
@@ -129,8 +132,8 @@ def _holder(known: Known, stack: Stack, body: Mapping[str, str], slides: bool) -
 
     A body that is round about the axis, as a roller or a planet is, turns on the stack, and so does one that is on it
     with sleeves only, where there is another one. Of a body that a pin fits exactly, and others with play, it is the
-    former: those turn on it. Where others slide on the stack, that body reaches farther on both sides, or fits more
-    tightly; None if none does.
+    former: those turn on it. Of a fixed body and one other, which fit alike on two ends, it is the fixed one. Where
+    others slide on the stack, that body reaches farther on both sides, or fits more tightly; None if none does.
     """
     along = stack.axis.axis
     reach: dict[str, list[tuple[float, float, str]]] = {}
@@ -171,11 +174,14 @@ def _holder(known: Known, stack: Stack, body: Mapping[str, str], slides: bool) -
         return ends[tightest][2], "which it fits exactly, and has play in others"
     inside = all(low + rounding < one and other < high - rounding for one, other, _ in others)
     if not slides or (not turns and inside):
+        grounded = {body[name] for name in known.fixed} & reach.keys()
+        if len(reach) == 2 and grounded and not inside and max(fits.values()) - min(fits.values()) <= same:
+            return ends[min(grounded)][2], "as it is fixed, and fits it as the other one does"
         return part, "farthest out"
     looser = [fit for fit in fits.values() if fit > fits[tightest] + same]  # two cranks fit their shaft alike
     if traps - {tightest} or tightest in bushed:
         return None, ""  # as a screw that turns in a slide goes with the slide, and not with its nut
-    if looser and not _slides_between(ends, tightest):
+    if looser and not (_slides_between(ends, tightest) and _has_room(ends, fits, same, stack.axis.radius)):
         return ends[tightest][2], "more tightly than by others"
     return (part, "on one end") if looser else (None, "")
 
@@ -185,6 +191,23 @@ def _slides_between(ends: Mapping[str, tuple[float, float, str]], owner: str) ->
     low, high, _ = ends[owner]
     others = [end for other, end in ends.items() if other != owner]
     return any(end[1] <= low for end in others) and any(end[0] >= high for end in others)
+
+
+def _has_room(
+    ends: Mapping[str, tuple[float, float, str]], fits: Mapping[str, float], same: float, radius: float
+) -> bool:
+    """Tell whether what fits a rod exactly can slide there: not where several bodies do, and each one with play is
+    between them or beside one of them, as the arms of a scissor lift are that turn on a shaft across."""
+    exact = [ends[owner] for owner, fit in fits.items() if fit <= same]
+    if len(exact) < 2:
+        return True
+    for owner, fit in fits.items():
+        low, high, _ = ends[owner]
+        gaps = [max(first - high, low - last) for first, last, _ in exact]
+        between = min(last for _, last, _ in exact) <= low and high <= max(first for first, *_ in exact)
+        if fit > same and not between and min(gaps) > BESIDE * radius:
+            return True
+    return False
 
 
 def _keepers(

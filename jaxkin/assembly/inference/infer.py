@@ -43,8 +43,8 @@ from jaxkin.assembly.inference.lock_nuts import locked_threads
 from jaxkin.assembly.inference.lying_on_one import lying_on_one
 from jaxkin.assembly.inference.meshing_wheels import meshing_wheels
 from jaxkin.assembly.inference.motors import motor_shafts
+from jaxkin.assembly.inference.on_motors import motor_joints, on_shafts
 from jaxkin.assembly.inference.on_rings import clamped_on_rings
-from jaxkin.assembly.inference.on_steppers import on_shafts, stepper_joints
 from jaxkin.assembly.inference.one_screw import clamped_by_one_screw
 from jaxkin.assembly.inference.pinned_slides import pinned_slides
 from jaxkin.assembly.inference.pocketed_nuts import nuts_in_pockets
@@ -239,7 +239,7 @@ def _take_joints_between_bodies(known: Known, fastening: Collection[str]) -> _St
     known.take(on_lead_screws(known, lead_nuts(known)))
     known.take(shoes(known))
     known.take([*pinned_slides(known), *dowelled(known), *tabs_in_slots(known)])
-    turning = [*closed_bearing_joints(known, known.measured.closed_bearings), *stepper_joints(known)]
+    turning = [*closed_bearing_joints(known, known.measured.closed_bearings), *motor_joints(known)]
     known.take([each.inference for each in turning if not each.replaces_slide])
     body = known.body
     borne = {frozenset(body[part] for part in each.inference.parts) for each in turning}

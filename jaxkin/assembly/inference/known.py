@@ -82,7 +82,7 @@ class Known:
         """The outer and the inner ring of each bearing, which are never one body; of a bearing that is one ring, that
         and what is in its hole."""
         self.driven: set[Pair] = set()
-        """Stepper motors that are one solid with their shaft, each with a hub on that."""
+        """Motors that are one solid with their shaft, each with a hub on that."""
         self.in_ring_grooves: Mapping[tuple[str, str], float] = {}
         """Each screw that stands in a groove round a shaft, and that shaft, with the play between them."""
         self.closed: set[str] = set()

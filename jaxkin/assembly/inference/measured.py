@@ -15,7 +15,7 @@ from jaxkin.assembly.inference.closed_bearings import closed_bearings
 from jaxkin.assembly.inference.embedded import depth_inside
 from jaxkin.assembly.inference.linear_bearings import linear_bearings
 from jaxkin.assembly.inference.slotted_pins import SlottedPin, slotted_pins
-from jaxkin.assembly.inference.steppers import Stepper, steppers
+from jaxkin.assembly.inference.solid_motors import SolidMotor, solid_motors
 from jaxkin.assembly.inference.stop_faces import StopFace, slanted_stops, stops
 from jaxkin.contacts.tolerance import default_length
 from jaxkin.geometry.part import Part
@@ -66,9 +66,9 @@ class Measured:
         return linear_bearings(self.parts, self.bores, self._metre)
 
     @cached_property
-    def steppers(self) -> list[Stepper]:
-        """Stepper motors that are one part with their shaft: see `steppers`."""
-        return steppers(self.parts, self.bores, self._metre)
+    def motors(self) -> list[SolidMotor]:
+        """Motors that are one part with their shaft: see `solid_motors`."""
+        return solid_motors(self.parts, self.bores, self._metre)
 
     def axes(self, clearance: float | None) -> list[CommonAxis]:
         """Find the common axes of different parts: see `common_axes`."""

@@ -58,16 +58,29 @@ def clamped_by_one_screw(known: Known, every: Sequence[Stack]) -> list[Inference
         owners = {body[each.part], body[each.host]}
         for owner in {body[part] for part in each.turning} - ground:
             partners.setdefault(owner, set()).update(owners - {owner})
-    ends = link_ends(known) if found else []
+    ends, mounted = (link_ends(known), _with_motors(known, body)) if found else ([], body)
     links, result = {owner for owner, others in partners.items() if len(others) > 1}, []
     for each in found:
         turning = {body[part] for part in each.turning}
-        if not links & turning and not _is_lever(known, each, body, ends) and not _is_leaf(each, found, body):
+        if not links & turning and not _is_lever(known, each, mounted, ends) and not _is_leaf(each, found, body):
             text = f"{each.why} with a clearance of {each.through.clearance:.2g}: it clamps them"
             text += f" (if they turn on it, give joints=[{_hinge(each)}])"
             sizes = (("radius", each.inner.one.radius), ("clearance", each.through.clearance))
             parts = known.in_order((each.part, each.host))
             result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
+    return result
+
+
+def _with_motors(known: Known, body: Mapping[str, str]) -> dict[str, str]:
+    """Count each motor that is one solid with its shaft as one body with the only one that it touches beside its hubs:
+    it is screwed on there."""
+    result = dict(body)
+    for motor in {each.part for each in known.measured.motors}:
+        beside_it = (pair for pair in known.touching if motor in pair and pair not in known.driven)
+        owners = {result[part] for pair in beside_it for part in pair} - {result[motor]}
+        if len(owners) == 1:
+            (owner,) = owners
+            result = {part: owner if other == result[motor] else other for part, other in result.items()}
     return result
 
 

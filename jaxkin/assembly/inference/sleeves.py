@@ -83,14 +83,15 @@ def seated_sleeves(known: Known, found: list[Sleeve]) -> list[Inference]:
     the pin: that is held between faces of the pin, and not where its hole ends; a ring of a piston fits its groove less
     tightly than the cylinder. Where the pin fills the same hole, as a piston beside its gland, the hole is one to slide
     in, and nothing is set into it but where it ends; the same holds of a piston that is a ring on its rod. A flange
-    that two or more parallel axes hold to another part is screwed on there.
+    that two or more parallel axes hold to another part is screwed on there. What is on the shaft of a motor that is one
+    solid with it turns there.
     """
     result = []
     for each in found:
         if _is_flange(known, each):
             continue
         seat, why = each.housing, "set into the hole of"
-        if each.pin is not None:
+        if each.pin is not None and frozenset(each.pin.parts) not in known.driven:
             looser = max(each.housing.clearance, 0.0) - max(each.pin.clearance, 0.0)
             if looser > SAME_FIT * each.housing.one.radius:
                 seat, why = each.pin, "tighter on the pin of"

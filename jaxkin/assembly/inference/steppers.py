@@ -1,9 +1,8 @@
-"""Stepper motors that are drawn as one solid with their shaft, known by their sizes."""
+"""Stepper motors that are drawn as one solid with their shaft, known by the sizes of flange, pilot and shaft."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -25,32 +24,12 @@ SAME_FLANGE, SAME_PILOT, SAME_SHAFT = 0.04, 0.03, 0.02
 """Differences of these sizes that are none, over the size: people draw the flange of size 17 as 41 to 43."""
 
 
-class Stepper(NamedTuple):
-    """A motor, its shaft, and its size of NEMA."""
+def stepper_size(part: Part, shaft: Bore, pins: Sequence[Bore], millimetres: float) -> int | None:
+    """Find the size of NEMA of a stepper motor by its square flange, and the pilot and the shaft in its middle.
 
-    part: str
-    shaft: Bore
-    size: int
-
-
-def steppers(parts: Sequence[Part], bores: Mapping[str, Sequence[Bore]], metre: float = 1e-3) -> list[Stepper]:
-    """Find the parts with a square flange, and a pilot and a shaft in its middle, of the sizes of a stepper motor.
-
-    `bores` are the bores and pins of each part by its name, and `metre` is the unit of lengths in metres.
+    `pins` are all of the part, and `millimetres` is the unit of lengths. None where it is no such motor.
     """
-    result = []
-    for part in parts:
-        pins = [bore for bore in bores[part.name] if not bore.hole]
-        for shaft in pins:
-            pilots = [bore for bore in pins if bore.radius > shaft.radius and bore.on_axis_of(shaft)]
-            size = _size(part, shaft, pilots, metre / 1e-3)
-            if size is not None:
-                result.append(Stepper(part.name, shaft, size))
-    return result
-
-
-def _size(part: Part, shaft: Bore, pilots: list[Bore], millimetres: float) -> int | None:
-    """Find the size of a motor by its shaft, pilots and flange; None where it is none."""
+    pilots = [bore for bore in pins if bore.radius > shaft.radius and bore.on_axis_of(shaft)]
     for size, (flange, wide, narrow) in _SIZES.items():
         if (
             _is_one_of(2 * millimetres * shaft.radius, narrow, SAME_SHAFT)

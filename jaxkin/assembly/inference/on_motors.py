@@ -1,4 +1,4 @@
-"""What is on the shaft of a stepper motor that is one solid with it: it turns."""
+"""What is on the shaft of a motor that is one solid with it: it turns."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sleeves import MAX_LOOSE
 from jaxkin.assembly.inference.slide_stops import Stop
-from jaxkin.assembly.inference.steppers import SAME_SHAFT, Stepper
+from jaxkin.assembly.inference.solid_motors import SolidMotor
+from jaxkin.assembly.inference.steppers import SAME_SHAFT
 from jaxkin.assembly.inference.stop_faces import stands_across
 from jaxkin.assembly.inference.stopped_joint import StoppedJoint
 from jaxkin.geometry.surfaces import Plane
@@ -16,10 +17,10 @@ from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 
-def on_shafts(known: Known) -> list[tuple[Stepper, CommonAxis]]:
-    """Find the hubs on the shafts of stepper motors; what lies on the flange of a motor is no hub."""
+def on_shafts(known: Known) -> list[tuple[SolidMotor, CommonAxis]]:
+    """Find the hubs on the shafts of motors; what lies on the flange of a motor is no hub."""
     result = []
-    for each in known.measured.steppers:
+    for each in known.measured.motors:
         for pair in known.axes:
             on = pair.one.part == each.part and pair.one.on_axis_of(each.shaft) and not pair.virtual
             if on and abs(pair.one.radius / each.shaft.radius - 1) <= SAME_SHAFT:
@@ -30,7 +31,7 @@ def on_shafts(known: Known) -> list[tuple[Stepper, CommonAxis]]:
     return result
 
 
-def _lies_on_flange(known: Known, motor: Stepper, part: str) -> bool:
+def _lies_on_flange(known: Known, motor: SolidMotor, part: str) -> bool:
     """Tell whether a part lies on a face of a motor across its shaft, other than the end of that."""
     axis = motor.shaft.axis
     ends, middle = motor.shaft.reach(axis), float(known.solids[motor.part].box.mean(axis=0) @ axis)
@@ -42,8 +43,8 @@ def _lies_on_flange(known: Known, motor: Stepper, part: str) -> bool:
     return any(abs(float(plane.point @ axis) - tip) > NEAR_LENGTH * motor.shaft.radius for plane in across)
 
 
-def stepper_joints(known: Known) -> list[StoppedJoint]:
-    """Make a revolute joint of each stepper motor and the hubs on its shaft.
+def motor_joints(known: Known) -> list[StoppedJoint]:
+    """Make a revolute joint of each motor and the hubs on its shaft.
 
     Where the hub fits exactly, it only stops the slide that contacts allow.
     """
@@ -56,8 +57,10 @@ def stepper_joints(known: Known) -> list[StoppedJoint]:
         exact = any(owners == {body[part] for part in each} for each in known.pinned)
         parts = known.in_order(pair.parts)
         joint = pairs.revolute("-".join(parts), *parts, point=pair.other.point, axis=motor.shaft.axis)
-        text = f"{pair.other.part!r} is on the shaft of {motor.part!r}, which has the sizes of a stepper motor of NEMA "
-        text += f"{motor.size}, and is one solid with it"
+        text = (
+            f"{pair.other.part!r} is on the shaft of {motor.part!r}, which has the sizes of {motor.told}, and is one "
+        )
+        text += "solid with it"
         sizes = (("radius", motor.shaft.radius), ("clearance", pair.clearance))
         inference = Inference.of(joint, Evidence(EvidenceKind.ENCLOSED, sizes, text))
         result.append(StoppedJoint(inference, Stop.BEARING, exact))
