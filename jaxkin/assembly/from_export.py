@@ -20,7 +20,7 @@ from jaxkin.assembly.subassemblies import rigid_subassemblies
 from jaxkin.assembly.to_mechanism import MechanismOptions, check_options, make_mechanism
 from jaxkin.contacts.contact import Contacts
 from jaxkin.geometry.part import size
-from jaxkin.joints.combine import lower_pair
+from jaxkin.joints.combine import subgroup_joint
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.regularise import Noise
@@ -43,8 +43,8 @@ PLACES = 4.0
 def from_export(assembly: Assembly, exported: Exported, options: MechanismOptions) -> Mechanism:
     """Make the mechanism that an export says, but where the user's `options` say else; contacts are not looked at.
 
-    All joints and mates between two bodies become the one lower pair that they amount to together; where there is none,
-    each becomes a joint of its own. Parts that nothing of the export ties move with the sub-assembly that they are in,
+    All joints and mates between two bodies become the one joint that they amount to together, or as few as keep them
+    all. Parts that nothing of the export ties move with the sub-assembly that they are in,
     else with the part nearest to them. Parts are fixed by the user, or else by the export. Each step is told in the
     notes of the mechanism.
 
@@ -184,8 +184,8 @@ def _locked(known: Known, constraints: Sequence[Constraint], noise: Noise, notes
     """Find pairs of bodies that several constraints leave no freedom together; features that do not meet are noted."""
     result = []
     for several in _between(known, constraints):
-        pair = lower_pair([each.chain for each in several], noise) if len(several) > 1 else None
-        if pair is not None and pair.kind is JointKind.FIXED:
+        together = subgroup_joint([each.chain for each in several], noise) if len(several) > 1 else None
+        if together is not None and together.kind is JointKind.FIXED:
             evidence = Evidence(EvidenceKind.EXPORT, apart(several, notes, noise), f"{told(several)} leave no freedom")
             result.append(Inference(several[0].parts, evidence))
     return result

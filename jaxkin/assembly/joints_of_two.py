@@ -1,8 +1,8 @@
 """The joints of two bodies that all joints and mates between them amount to, as an export or a robot's file says them.
 
-What they allow together is one pair, a universal joint, or several joints side by side: then mates that are equal to
-one pair, two by two, are that pair, and mates that allow all that another one does are left out, so that as few joints
-as can be are closed against each other.
+What they allow together is one subgroup joint, a universal joint, or several joints side by side: then mates that are
+one subgroup joint, two by two, become it, and mates that allow all that another one does are left out, so that as few
+joints as can be are closed against each other.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from itertools import combinations, permutations
 from typing import NamedTuple
 
 from jaxkin.assembly.exported import Constraint
-from jaxkin.joints.combine import Chain, includes, lower_pair
+from jaxkin.joints.combine import Chain, includes, subgroup_joint
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.joints.joint import Joint, joint
 from jaxkin.joints.kinds import JointKind
@@ -22,10 +22,10 @@ from jaxkin.joints.regularise import Noise
 
 
 class _Together(NamedTuple):
-    """Constraints that one of them, or a pair, stands for."""
+    """Constraints that one of them, or a subgroup joint, stands for."""
 
     stands: Constraint
-    """The constraint, or the pair, with its name."""
+    """The constraint, or the subgroup joint, with its name."""
     members: tuple[Constraint, ...]
     """All that it stands for."""
 
@@ -39,8 +39,8 @@ def joints_of_two(
     """
     found = [_Together(each, (each,)) for each in several]
     if whole:
-        if (pair := _pair(several, noise)) is not None:
-            found = [pair]
+        if (single := _single(several, noise)) is not None:
+            found = [single]
         elif (cross := _cross(several, noise)) is not None:
             return [replace(cross, evidence=evidence_of(several, notes, noise))]
         else:
@@ -53,20 +53,20 @@ def _joint(each: Constraint, evidence: Evidence) -> Joint:
     return joint(each.name, each.parts, each.kind, movements, frames, each.pitch, evidence, each.limits)
 
 
-def _pair(several: Sequence[Constraint], noise: Noise) -> _Together | None:
-    """Find the pair that constraints amount to; None if there is none."""
-    pair = lower_pair([each.chain for each in several], noise)
-    if pair is None:
+def _single(several: Sequence[Constraint], noise: Noise) -> _Together | None:
+    """Find the subgroup joint that constraints amount to; None if there is none."""
+    found = subgroup_joint([each.chain for each in several], noise)
+    if found is None:
         return None
-    parts, chain = several[0].parts, Chain((pair.movement,), pair.frame[None])
-    return _Together(Constraint("-".join(parts), parts, "", chain, pair.kind), tuple(several))
+    parts, chain = several[0].parts, Chain((found.movement,), found.frame[None])
+    return _Together(Constraint("-".join(parts), parts, "", chain, found.kind), tuple(several))
 
 
 def _fewest(found: list[_Together], body: Mapping[str, str], noise: Noise) -> list[_Together]:
-    """Replace two by the pair that they amount to, or by the one that allows nothing else, as long as there are such
-    two. What they allow together stays exactly the same."""
+    """Replace two by the subgroup joint that they amount to, or by the one that allows nothing else, as long as there
+    are such two. What they allow together stays exactly the same."""
     for one, other in combinations(found, 2):
-        both = _pair((one.stands, other.stands), noise) or _stricter(one, other, body, noise)
+        both = _single((one.stands, other.stands), noise) or _stricter(one, other, body, noise)
         if both is not None:
             both = both._replace(members=(*one.members, *other.members))
             return _fewest([both if each is one else each for each in found if each is not other], body, noise)
@@ -89,7 +89,7 @@ def _cross(several: Sequence[Constraint], noise: Noise) -> Joint | None:
         if not rest or each.kind is not JointKind.CONSTANT_ANGLE:
             continue
         axis1, axis2 = each.chain.frames[0, :3, 2], each.chain.frames[-1, :3, 2]
-        ball = lower_pair(rest, noise)
+        ball = subgroup_joint(rest, noise)
         if ball is None or ball.kind is not JointKind.SPHERICAL or abs(float(axis1 @ axis2)) > noise.angle:
             continue
         axis2 = axis2 - (axis1 @ axis2) * axis1

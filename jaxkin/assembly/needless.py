@@ -16,7 +16,7 @@ import numpy as np
 
 from jaxkin.assembly.spinning import TWIST_TOLERANCE, Spin, spins
 from jaxkin.geometry.part import Part
-from jaxkin.joints.combine import LOWER_PAIRS
+from jaxkin.joints.combine import SUBGROUP_JOINTS
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.screws import chain, complement, freedoms
 from jaxkin.linkage.linkage import SpinningPart
@@ -203,7 +203,7 @@ class _SpinCandidates(NamedTuple):
 
         near = dict.fromkeys(p for each in self.joints if part in each.parts for p in each.parts if p != part)
         outside = [neighbour for neighbour in near if neighbour not in needless]
-        revolute = LOWER_PAIRS[1, 0][1]
+        revolute = SUBGROUP_JOINTS[1, 0][1]
         if not all(allows_only(revolute, outside[0], other) for other in outside[1:]):
             return []
         return [neighbour for neighbour in near if allows_only(spin.movement, neighbour, part)]

@@ -22,7 +22,7 @@ from jaxkin.geometry.outline import roundness
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Transform, frame
 from jaxkin.geometry.surfaces import Cylinder
-from jaxkin.joints.combine import LOWER_PAIRS
+from jaxkin.joints.combine import SUBGROUP_JOINTS
 from jaxkin.joints.from_contacts import forwards
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
@@ -52,9 +52,9 @@ class Spin:
 
     kind: JointKind
     movement: str
-    """Key of the movement of the lower pair: revolute, cylindrical, planar or spherical."""
+    """Key of the movement of the joint: revolute, cylindrical, planar or spherical."""
     frame: Transform
-    """Frame of that pair, z along the axis of rotation; of a ball at its middle, with the axes of the world."""
+    """Frame of that joint, z along the axis of rotation; of a ball at its middle, with the axes of the world."""
     carrier: str = ""
     """The neighbour that the part stays on: relative to the carrier it has this motion only."""
 
@@ -101,7 +101,7 @@ def _spin(joints: Sequence[Joint], size: float) -> Spin | None:
     count = int((turns > TWIST_TOLERANCE).sum())
     if count == len(free) == 3:
         point = _centre_of_turns(free)
-        return None if point is None else Spin(*LOWER_PAIRS[3, 0], frame(centre + size * point, np.eye(3)[2]))
+        return None if point is None else Spin(*SUBGROUP_JOINTS[3, 0], frame(centre + size * point, np.eye(3)[2]))
     if count != 1:
         return None
     turn, slides = mixes[0] @ free, (mixes[1:] @ free)[:, 3:]
@@ -110,9 +110,9 @@ def _spin(joints: Sequence[Joint], size: float) -> Spin | None:
     point = np.cross(axis, turn[3:]) / np.linalg.norm(turn[:3])
     pitched = len(free) == 1 and abs(turn[3:] @ axis) > TWIST_TOLERANCE
     if len(free) <= 2 and np.all(along > 1 - TWIST_TOLERANCE) and not pitched:
-        kind, movement = LOWER_PAIRS[1, len(free) - 1]
+        kind, movement = SUBGROUP_JOINTS[1, len(free) - 1]
     elif len(free) == 3 and np.all(along < TWIST_TOLERANCE):
-        (kind, movement), point = LOWER_PAIRS[1, 2], np.zeros(3)
+        (kind, movement), point = SUBGROUP_JOINTS[1, 2], np.zeros(3)
     else:
         return None
     return Spin(kind, movement, forwards(frame(centre + size * point, axis)))

@@ -18,7 +18,7 @@ from jaxkin.assembly.near_misses import not_accounted_for
 from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.contacts.detect import is_about
 from jaxkin.geometry.pose import frame
-from jaxkin.joints.combine import LOWER_PAIRS
+from jaxkin.joints.combine import SUBGROUP_JOINTS
 from jaxkin.joints.evidence import BY_HAND, Bond, EvidenceKind
 from jaxkin.joints.file_noise import noise_of
 from jaxkin.joints.joint import Joint, joint
@@ -154,7 +154,7 @@ def _ties(
             free_name(f"{first}-{part}", taken),
             (first, part),
             JointKind.FIXED,
-            (LOWER_PAIRS[0, 0][1],),
+            (SUBGROUP_JOINTS[0, 0][1],),
             [frame(centres[part], np.array([0.0, 0.0, 1.0]))],
             evidence=known.get(part, BY_HAND),
         )

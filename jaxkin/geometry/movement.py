@@ -49,11 +49,11 @@ class Movement:
     ball: bool = False
     """True for the three angles of a spherical pair, which have a gimbal lock at phi = 90 deg, so that the solver uses
     a quaternion in their place."""
-    pair: str | None = None
-    """Value of the `JointKind` of the joint with this movement alone whose displacements form a group: a lower pair, or
-    slides in a plane or in space, with or without a turn; None where no such joint has it."""
+    subgroup_joint: str | None = None
+    """Value of the `JointKind` of the joint with this movement alone whose displacements form a subgroup of those of
+    space: a lower pair, or slides in a plane or in space, with or without a turn; None where no such joint has it."""
     letter: str | None = None
-    """Letter of the pair in the names of loops, such as RSSR; None where the letters of the elementary motions are
+    """Letter of the joint in the names of loops, such as RSSR; None where the letters of the elementary motions are
     written: R for a rotation, P for a translation, H for a screw."""
     feature: InvariantFeature | None = None
     """The feature that the movement leaves in place on both parts; None for the identity."""

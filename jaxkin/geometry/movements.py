@@ -56,11 +56,11 @@ _OVER_SURFACE = tuple(
 """The elementary motions of a frame that travels over a surface and keeps its directions."""
 
 MOVEMENTS: dict[str, Movement] = {
-    "I": Movement(pair="fixed"),
+    "I": Movement(subgroup_joint="fixed"),
     "T_z": Movement(
         coordinates=("z",),
         elements=(_translate(2, 0),),
-        pair="prismatic",
+        subgroup_joint="prismatic",
         feature=InvariantFeature("axis"),
         aligned=frozenset({"direction"}),
         figures=((ROD,), (BoxFigure((3.6, 3.6, 6.0)),)),
@@ -68,7 +68,7 @@ MOVEMENTS: dict[str, Movement] = {
     "T_phi": Movement(
         coordinates=("phi",),
         elements=(_rotate(2, 0),),
-        pair="revolute",
+        subgroup_joint="revolute",
         feature=InvariantFeature("axis", marked=True),
         surface="cone",
         aligned=frozenset({"axis", "direction"}),
@@ -83,7 +83,7 @@ MOVEMENTS: dict[str, Movement] = {
     "T_xy": Movement(
         coordinates=("x", "y"),
         elements=(_translate(0, 0), _translate(1, 1)),
-        pair="rectangular",
+        subgroup_joint="rectangular",
         feature=InvariantFeature("plane"),
         aligned=frozenset({"direction"}),
         figures=((BoxFigure((18.0, 18.0, 0.8)),), (BoxFigure((4.4, 4.4, 1.8)),)),
@@ -91,14 +91,14 @@ MOVEMENTS: dict[str, Movement] = {
     "T_xyz": Movement(
         coordinates=("x", "y", "z"),
         elements=(_translate(0, 0), _translate(1, 1), _translate(2, 2)),
-        pair="cartesian",
+        subgroup_joint="cartesian",
         feature=InvariantFeature("point"),  # the place as assembled
         figures=(_THREE_RODS, (BoxFigure((3.6, 3.6, 3.6)),)),
     ),
     "T_xyz_phi": Movement(
         coordinates=("x", "y", "z", "phi"),
         elements=(_translate(0, 0), _translate(1, 1), _translate(2, 2), _rotate(2, 3)),
-        pair="schoenflies",
+        subgroup_joint="schoenflies",
         feature=InvariantFeature("axis"),
         aligned=frozenset({"direction"}),
         figures=(_THREE_RODS, (CylinderFigure(2, 2.4, 3.6),)),
@@ -106,7 +106,7 @@ MOVEMENTS: dict[str, Movement] = {
     "T_screw": Movement(
         coordinates=("phi",),
         elements=(ElementaryMotion("screw", 2, 0),),
-        pair="screw",
+        subgroup_joint="screw",
         feature=InvariantFeature("axis", marked=True),
         aligned=frozenset({"axis", "direction"}),
         figures=((ROD,), (CylinderFigure(2, 2.4, 3.0),)),
@@ -114,7 +114,7 @@ MOVEMENTS: dict[str, Movement] = {
     "T_z_phi": Movement(
         coordinates=("z", "phi"),
         elements=(_translate(2, 0), _rotate(2, 1)),
-        pair="cylindrical",
+        subgroup_joint="cylindrical",
         letter="C",
         feature=InvariantFeature("axis"),
         surface="cylinder",
@@ -124,7 +124,7 @@ MOVEMENTS: dict[str, Movement] = {
     "T_xy_phi": Movement(
         coordinates=("x", "y", "phi"),
         elements=(_translate(0, 0), _translate(1, 1), _rotate(2, 2)),
-        pair="planar",
+        subgroup_joint="planar",
         letter="E",
         feature=InvariantFeature("plane"),
         surface="plane",
@@ -179,7 +179,7 @@ MOVEMENTS: dict[str, Movement] = {
         coordinates=("theta", "phi", "psi"),
         elements=(_rotate(2, 2), _rotate(1, 1), _rotate(0, 0)),
         ball=True,
-        pair="spherical",
+        subgroup_joint="spherical",
         letter="S",
         feature=InvariantFeature("point"),
         surface="sphere",

@@ -12,7 +12,7 @@ from jaxkin.geometry.pose import Transform
 from jaxkin.io.export_content import Export, ExportedJoint, ExportedMate
 from jaxkin.io.export_joints import joint_of_kind
 from jaxkin.io.names import cleaned
-from jaxkin.joints.combine import LOWER_PAIRS, Chain
+from jaxkin.joints.combine import SUBGROUP_JOINTS, Chain
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.mates import MateFeature, mate
 
@@ -128,7 +128,7 @@ def _mate(
     if each.kind.lower() in LOCKS or (each.kind == UNKNOWN and each.name.lower().startswith(LOCKS)):
         if each.kind == UNKNOWN:
             notes.append(f"{text} between {parts[0]!r} and {parts[1]!r} is taken for a lock, by its name")
-        held = Chain((LOWER_PAIRS[0, 0][1],), np.eye(4)[None])
+        held = Chain((SUBGROUP_JOINTS[0, 0][1],), np.eye(4)[None])
         return [Constraint(cleaned(each.name), parts, text, held, JointKind.FIXED)]
     features = [MateFeature.of(side.kind, side.point / metres, side.axis) for side in each.sides]
     found = mate(each.kind, features[0], features[1], PARALLEL_MATES, length) if features[0] and features[1] else ()

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from jaxkin._names import listed
 from jaxkin.io.export_constraints import PARALLEL_MATES, ConstrainedParts, Paths, joints_between, mates_between
 from jaxkin.io.export_content import Export
-from jaxkin.joints.combine import Chain, lower_pair
+from jaxkin.joints.combine import Chain, subgroup_joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.regularise import Noise
 
@@ -50,5 +50,5 @@ def _held(export: Export, first: Paths, metres: float, size: float) -> list[str]
 
 
 def _leave_nothing(chains: Sequence[Chain], noise: Noise) -> bool:
-    pair = lower_pair(chains, noise)
-    return pair is not None and pair.kind is JointKind.FIXED
+    together = subgroup_joint(chains, noise)
+    return together is not None and together.kind is JointKind.FIXED

@@ -10,17 +10,18 @@ import numpy as np
 from jaxkin.contacts.states import find_state
 from jaxkin.geometry.pose import Transform, inverse
 from jaxkin.joints import pairs
-from jaxkin.joints.combine import LOWER_PAIRS, Chain
+from jaxkin.joints.combine import SUBGROUP_JOINTS, Chain
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
 
-_PAIRS = {str(pair[0]): pair for pair in LOWER_PAIRS.values()}
+_ALONE = {str(kind): (kind, movement) for kind, movement in SUBGROUP_JOINTS.values()}
+"""Name of a subgroup joint -> its kind and movement."""
 _OTHER_NAMES = {
     "weld": "fixed", "fastened": "fixed", "rigid": "fixed", "gimbal": "spherical", "ball": "spherical",
     "hinge": "revolute", "pin": "revolute", "slider": "prismatic", "cylinder": "cylindrical",
     "parallel": "schoenflies",
 }  # fmt: skip
-"""What systems call the lower pairs. A gimbal has the rotations of a ball, as angles about successive axes."""
+"""What systems call the subgroup joints. A gimbal has the rotations of a ball, as angles about successive axes."""
 NEARLY_PERPENDICULAR = 1e-4
 """Cosine between the two axes of a universal joint, up to which what they are not perpendicular by is rounding."""
 
@@ -56,9 +57,9 @@ def joint_of_kind(kind: str, base: Transform, follower: Transform) -> ExportedKi
     """
     name = "".join(letter for letter in kind.lower() if letter.isalnum()).removesuffix("joint")
     name = _OTHER_NAMES.get(name, name)
-    if name in _PAIRS:
-        pair, movement = _PAIRS[name]
-        found = ExportedKind(pair, Chain((movement,), base[None]))
+    if name in _ALONE:
+        known, movement = _ALONE[name]
+        found = ExportedKind(known, Chain((movement,), base[None]))
     elif name not in _MADE or (found := _MADE[name](base, follower)) is None:
         return None
     first, second = (follower, base) if found.swapped else (base, follower)

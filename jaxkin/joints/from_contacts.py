@@ -19,8 +19,8 @@ from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.regularise import Noise, align, movements, regularise
 
 UNCLEAR_MARGIN = 3e-4
-"""Margin of a lower pair (`LowerPair.margin`: radians, or lengths per size of the assembly) below which its contacts
-were perhaps meant to allow more: some hundred times the noise of single precision (`Noise.of`)."""
+"""Margin of a lower pair (`SubgroupJoint.margin`: radians, or lengths per size of the assembly) below which its
+contacts were perhaps meant to allow more: some hundred times the noise of single precision (`Noise.of`)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,7 +132,7 @@ def _joints_of_bodies(contacts: _Contacts, pairs: ContactsOfPairs, combine: bool
     """Make the joints of two bodies: one lower pair for all their pairs of parts, else the joints of each pair."""
     if len(pairs) > 1:
         members = [k for each in pairs.values() for k in each]
-        if (found := _lower_pair(contacts, next(iter(pairs)), members)) is not None:
+        if (found := _combined(contacts, next(iter(pairs)), members)) is not None:
             name, *others = ("-".join(pair) for pair in pairs)
             note = f"joint {name!r} holds the contacts of {', '.join(map(repr, others))} too: the same two bodies"
             return [found._replace(notes=(*found.notes, note))]
@@ -141,7 +141,7 @@ def _joints_of_bodies(contacts: _Contacts, pairs: ContactsOfPairs, combine: bool
 
 def _joints_of_parts(contacts: _Contacts, pair: PartPair, members: Sequence[int], combine: bool) -> list[_FoundJoint]:
     """Make the joints of two parts: with `combine` their one lower pair if there is one, else one joint a contact."""
-    if combine and (found := _lower_pair(contacts, pair, members)) is not None:
+    if combine and (found := _combined(contacts, pair, members)) is not None:
         return [found]
     name = "-".join(pair)
     joints = [
@@ -154,7 +154,7 @@ def _joints_of_parts(contacts: _Contacts, pair: PartPair, members: Sequence[int]
     return joints
 
 
-def _lower_pair(contacts: _Contacts, pair: PartPair, members: Sequence[int]) -> _FoundJoint | None:
+def _combined(contacts: _Contacts, pair: PartPair, members: Sequence[int]) -> _FoundJoint | None:
     """Combine contacts into the lower pair that they are equivalent to; None if there is none."""
     lower = combine_contacts([contacts.regular[k] for k in members], contacts.noise)
     if lower is None:

@@ -15,7 +15,7 @@ import numpy as np
 from jaxkin.contacts.states import find_state
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.pose import Transform, Vector, frame
-from jaxkin.joints.combine import LOWER_PAIRS, Chain
+from jaxkin.joints.combine import SUBGROUP_JOINTS, Chain
 from jaxkin.joints.kinds import JointKind
 
 FeatureKind = Literal["point", "line", "plane"]
@@ -180,8 +180,8 @@ def _across(normal: Vector, axis: Vector) -> Vector:
 
 FoundJoint = tuple[Chain, JointKind] | None
 
-_ALONE = {kind: movement for kind, movement in LOWER_PAIRS.values()}
-"""Kinds of lower pairs -> their movements."""
+_ALONE = {kind: movement for kind, movement in SUBGROUP_JOINTS.values()}
+"""Kinds of subgroup joints -> their movements."""
 
 
 def _plane_plane(one: MateFeature, other: MateFeature, angle: float, _: float) -> FoundJoint:
@@ -259,10 +259,10 @@ def _angle_kept(tag: str, first: MateFeature, second: MateFeature, angle: float)
 
 
 def _state(letter: str, *frames: Transform, region: str | None = None) -> tuple[Chain, JointKind]:
-    """Find the displacements of a contact state, and the kind of joint: that of a lower pair where there is one."""
+    """Find the displacements of a contact state, and the kind of joint: that of a subgroup joint where there is one."""
     movements = find_state(letter, region).movements
-    pair = MOVEMENTS[movements[0]].pair if len(movements) == 1 else None
-    return Chain(movements, np.stack(frames)), JointKind(pair) if pair else JointKind.of_state(letter)
+    alone = MOVEMENTS[movements[0]].subgroup_joint if len(movements) == 1 else None
+    return Chain(movements, np.stack(frames)), JointKind(alone) if alone else JointKind.of_state(letter)
 
 
 def _parallel(one: MateFeature, other: MateFeature, angle: float) -> bool:

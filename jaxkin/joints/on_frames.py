@@ -28,9 +28,9 @@ _OF_TWO_FRAMES = (
     JointKind.SCREW,
     JointKind.FIXED,
 )
-MOVEMENT_OF = {kind: key for key, movement in MOVEMENTS.items() for kind in _OF_TWO_FRAMES if movement.pair == kind} | {
-    JointKind.UNIVERSAL: universal("", "", "", point=(0, 0, 0), axis1=(0, 1, 0), axis2=(1, 0, 0)).movements[0]
-}
+MOVEMENT_OF = {
+    kind: key for key, movement in MOVEMENTS.items() for kind in _OF_TWO_FRAMES if movement.subgroup_joint == kind
+} | {JointKind.UNIVERSAL: universal("", "", "", point=(0, 0, 0), axis1=(0, 1, 0), axis2=(1, 0, 0)).movements[0]}
 """Kind of a joint that two frames define -> key of its movement."""
 
 

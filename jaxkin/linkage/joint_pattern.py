@@ -14,13 +14,13 @@ from jaxkin.linkage.solve_order import Group
 from jaxkin.topology.graph import Circuit
 
 OF_ELEMENT = {"rotate": "R", "translate": "P", "screw": "H"}
-"""Kind of an elementary motion -> letter of the pair that has this motion alone."""
+"""Kind of an elementary motion -> letter of the joint that has this motion alone."""
 
 
 def letter(movements: Sequence[str], coordinates: Collection[int]) -> str:
     """Return the letter of a joint of which only the given coordinates are free.
 
-    A movement whose coordinates are all free has the letter of its lower pair. A movement with driven coordinates is
+    A movement whose coordinates are all free has the letter of its joint. A movement with driven coordinates is
     named by its remaining elementary motions, leftmost factor first: a planar pair driven by its angle is (PP), and one
     driven by x is (PR), not C, since its two axes differ.
     """
@@ -28,8 +28,8 @@ def letter(movements: Sequence[str], coordinates: Collection[int]) -> str:
     for name in movements:
         movement = MOVEMENTS[name]
         moving = [element for element in movement.elements if first + element.coordinate in coordinates]
-        letter_of_pair = movement.letter if len(moving) == len(movement.elements) else None
-        letters += letter_of_pair or "".join(OF_ELEMENT[element.kind] for element in moving)
+        own = movement.letter if len(moving) == len(movement.elements) else None
+        letters += own or "".join(OF_ELEMENT[element.kind] for element in moving)
         first += len(movement.coordinates)
     return letters if len(letters) < 2 else f"({letters})"
 

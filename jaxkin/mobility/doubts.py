@@ -14,7 +14,7 @@ from jaxkin.mobility.loop_freedoms import loop_freedoms
 from jaxkin.mobility.mobility import moving_columns, moving_coordinates, names
 from jaxkin.mobility.open_loops import opening
 
-_COORDINATES = {row.pair: row.coordinates for row in MOVEMENTS.values() if row.pair}
+_COORDINATES = {row.subgroup_joint: row.coordinates for row in MOVEMENTS.values() if row.subgroup_joint}
 
 
 def doubts(linkage: Linkage) -> list[tuple[Joint, Doubt]]:

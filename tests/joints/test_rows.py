@@ -13,7 +13,7 @@ from jaxkin.contacts.states import CONTACT_STATES
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.io.study_file import JointTable
 from jaxkin.io.study_writer import WRITTEN_ARGUMENTS
-from jaxkin.joints.combine import LOWER_PAIRS, lower_pairs
+from jaxkin.joints.combine import SUBGROUP_JOINTS, subgroup_joints
 from jaxkin.joints.joint import joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.pairs import JOINTS_BY_HAND
@@ -37,11 +37,11 @@ def test_no_other_file_names_the_joint_of_a_contact_state():
     assert {path for path, lines in text.items() if name.search(lines)} <= {"joints/kinds.py", "joints/joint.py"}
 
 
-def test_every_contact_state_has_a_kind_and_every_pair_a_movement():
+def test_every_contact_state_has_a_kind_and_every_subgroup_joint_a_movement():
     assert {JointKind.of_state(state.letter) for state in CONTACT_STATES} == {
         k for k in JointKind if k.name[:8] == "CONTACT_"
     }
-    assert {movement.pair for movement in MOVEMENTS.values() if movement.pair} <= set(JointKind)
+    assert {movement.subgroup_joint for movement in MOVEMENTS.values() if movement.subgroup_joint} <= set(JointKind)
     assert str(JointKind.REVOLUTE) == "revolute" and f"{JointKind.CONTACT_B}" == "contact b"
 
 
@@ -71,13 +71,13 @@ def test_a_joint_by_hand_is_one_row_for_users_and_studies(kind):
     assert getattr(jk, function.__name__) is function
 
 
-def test_two_movements_are_not_the_same_lower_pair():
-    other = replace(MOVEMENTS["T_phi"], pair="screw")
+def test_two_movements_are_not_the_same_subgroup_joint():
+    other = replace(MOVEMENTS["T_phi"], subgroup_joint="screw")
     with pytest.raises(
         ValueError, match=r"'T_new'.*'screw', with 1 rotations and 0 translations, as 'T_phi'.*revolute"
     ):
-        lower_pairs(MOVEMENTS | {"T_new": other})
-    assert lower_pairs(MOVEMENTS) == LOWER_PAIRS and len(LOWER_PAIRS) == 9
+        subgroup_joints(MOVEMENTS | {"T_new": other})
+    assert subgroup_joints(MOVEMENTS) == SUBGROUP_JOINTS and len(SUBGROUP_JOINTS) == 9
 
 
 @pytest.mark.parametrize("state", CONTACT_STATES, ids=lambda state: f"{state.letter}-{state.region}")

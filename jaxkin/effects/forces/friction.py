@@ -214,7 +214,7 @@ def _pressed(
     the thread. Across the thread this is (r F - p T / r) / h = F h / r - L p / (r h), h^2 = r^2 + p^2.
     """
     (movement,), own = (MOVEMENTS[name] for name in linkage.joints[number].movements), moving.at.joints[number]
-    which, force, helical = FRICTION_OF[movement.pair], wrench[3:], movement.pair == JointKind.SCREW
+    which, force, helical = FRICTION_OF[movement.subgroup_joint], wrench[3:], movement.subgroup_joint == JointKind.SCREW
     none = jnp.zeros((1, wrench.shape[1]))
     if which.along and which.across and not helical:
         return jnp.concatenate([force, none])

@@ -41,13 +41,13 @@ FRICTION_OF: dict[str | None, PairFriction] = {
     JointKind.PLANAR: PairFriction(along=True, across=False, radius="may", components=("force z",)),
     JointKind.SPHERICAL: PairFriction(along=True, across=True, radius="needed", components=_ALL),
 }
-"""Kind of a pair -> its friction. In a screw the part of all forces across its thread presses.
+"""Kind of a lower pair -> its friction. In a screw the part of all forces across its thread presses.
 Torques about axes that a joint does not turn about press nothing."""
 
 
 def pair_friction(joint: Joint) -> PairFriction | None:
     """Find the friction of a joint that is one lower pair; None for other joints."""
-    return FRICTION_OF.get(MOVEMENTS[joint.movements[0]].pair) if len(joint.movements) == 1 else None
+    return FRICTION_OF.get(MOVEMENTS[joint.movements[0]].subgroup_joint) if len(joint.movements) == 1 else None
 
 
 def check_friction(linkage: Linkage, given: Sequence[JointFriction], moves: bool) -> None:
