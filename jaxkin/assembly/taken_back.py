@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from jaxkin.assembly.dropped_inference import KEPT
 from jaxkin.joints.evidence import Bond, EvidenceKind
+from jaxkin.joints.from_contacts import PartPair
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
@@ -18,10 +19,8 @@ FEWEST = 6
 """Pairs that are tried however many parts there are."""
 _SAID = (*KEPT, EvidenceKind.USER, EvidenceKind.EXPORT)
 
-Pair = tuple[str, str]
 
-
-def taken_back(mechanism: Mechanism, without: Callable[[Pair], Mechanism]) -> Iterator[tuple[Pair, Mechanism]]:
+def taken_back(mechanism: Mechanism, without: Callable[[PartPair], Mechanism]) -> Iterator[tuple[PartPair, Mechanism]]:
     """Yield pairs of parts of which something is inferred, each with the mechanism in which it is not.
 
     `without` makes the mechanism that ignores what is between two parts. The weakest inferences, which were made last,
@@ -36,7 +35,7 @@ def taken_back(mechanism: Mechanism, without: Callable[[Pair], Mechanism]) -> It
             continue
 
 
-def _pairs(bond: Bond) -> list[Pair]:
+def _pairs(bond: Bond) -> list[PartPair]:
     """List pairs of parts that an inference holds together: all of three parts, of more each with the first one."""
     if len(bond.parts) > 3:
         return [(bond.parts[0], other) for other in bond.parts[1:]]

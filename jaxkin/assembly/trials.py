@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from jaxkin.assembly.ignored_contacts import check_ignored, without
 from jaxkin.assembly.inference.infer import infer
 from jaxkin.assembly.inference.inference import Inference
-from jaxkin.assembly.inference.known import Known, Pair
+from jaxkin.assembly.inference.known import BodyPair, Known
 from jaxkin.assembly.inference.springs import DrawnSpring
 from jaxkin.assembly.resting import lifted_off
 from jaxkin.assembly.seats import not_idle, useful_freedoms
@@ -59,7 +59,7 @@ class Trials:
         """Those of `contacts` that the user does not ignore, from which is inferred."""
         self.ignored = ignored
         """Pairs of parts between which nothing is inferred."""
-        self.heeded = set[Pair]()
+        self.heeded = set[BodyPair]()
         """Those of `ignored` for which some inference was left out."""
         self.measured = assembly._measured
         self.bearings = {name for each in self.measured.bearings for name in (each.outer, each.inner)}
@@ -70,7 +70,7 @@ class Trials:
         self.fasteners = set[str]()
         """Parts that were taken for fasteners in some trial."""
 
-    def make(self, seats: Sequence[Inference], apart: Sequence[Pair] = ()) -> Trial:
+    def make(self, seats: Sequence[Inference], apart: Sequence[BodyPair] = ()) -> Trial:
         """Make the mechanism with its inferences and `seats`; no pair of parts in `apart` is one body."""
         options = self.options
         rigid = [*options.rigid, *(each.parts for each in seats)]

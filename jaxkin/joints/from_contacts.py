@@ -39,10 +39,10 @@ class FoundJoints:
 
 
 PartPair = tuple[str, str]
-"""Two parts in the order of the assembly."""
+"""Two parts by their names, in a definite order."""
 
 ContactsOfPairs = dict[PartPair, list[int]]
-"""For each pair of parts that touch the indices of their contacts."""
+"""For each two parts that touch, in the order of the assembly, the indices of their contacts."""
 
 
 class _Contacts(NamedTuple):

@@ -8,7 +8,7 @@ import numpy as np
 
 from jaxkin.assembly.inference.axes import MAX_OFFSET
 from jaxkin.assembly.inference.inference import Inference, offset_told
-from jaxkin.assembly.inference.known import Known, Pair
+from jaxkin.assembly.inference.known import BodyPair, Known
 from jaxkin.assembly.inference.sockets import Socket
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
@@ -19,7 +19,7 @@ def ball_joints(known: Known) -> list[Inference]:
 
     One ball makes a ball joint, several on one line a hinge, as dimples of a printed hinge do, others hold the bodies.
     """
-    body, common = known.body, dict[Pair, list[Socket]]()
+    body, common = known.body, dict[BodyPair, list[Socket]]()
     tied = {*known.jointed, *(frozenset(body[part] for part in pair) for pair in known.touching)}
     for each in known.sockets:
         owners = frozenset(body[part] for part in each.parts)

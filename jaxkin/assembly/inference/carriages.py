@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from jaxkin.assembly.inference.inference import Inference
-from jaxkin.assembly.inference.known import Known, Pair
+from jaxkin.assembly.inference.known import BodyPair, Known
 from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.geometry.outline import widest_gap
 from jaxkin.geometry.part import Face, Part
@@ -61,7 +61,7 @@ def carriages(known: Known) -> list[Inference]:
                 if wheel and owner not in owners and frozenset((owner, turning)) not in tied:
                     runs.setdefault((carrier, owner), []).extend(_runs(wheel, rail))
     for (carrier, rail), found in runs.items():
-        pair: Pair = frozenset((carrier, rail))
+        pair: BodyPair = frozenset((carrier, rail))
         axis = None if pair in tied else _way(found)
         if axis is not None:
             wheels = known.in_order({run.wheel.part.name for run in found})

@@ -9,7 +9,7 @@ import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis, engaged
 from jaxkin.assembly.inference.bores import NEAR_ANGLE, NEAR_LENGTH, Bore
-from jaxkin.assembly.inference.known import Known, Pair
+from jaxkin.assembly.inference.known import BodyPair, Known
 from jaxkin.assembly.inference.stop_faces import ACROSS, stands_across
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.surfaces import Cylinder, Plane
@@ -18,7 +18,7 @@ from jaxkin.geometry.surfaces import Cylinder, Plane
 class CoaxialFeatures(NamedTuple):
     """What two bodies have about a common axis."""
 
-    owners: Pair
+    owners: BodyPair
     found: list[CommonAxis]
     touching: list[Contact]
     """Their exact contacts."""
@@ -61,13 +61,13 @@ def coaxial_features(known: Known, axes: Sequence[CommonAxis] | None = None) -> 
         owners = frozenset(body[part] for part in pair.parts)
         if len(owners) == 2 and owners not in jointed:
             between.setdefault(owners, []).append(pair)
-    exact: dict[Pair, list[Contact]] = {}
+    exact: dict[BodyPair, list[Contact]] = {}
     for contact in known.contacts:
         exact.setdefault(frozenset(body[part] for part in contact.parts), []).append(contact)
     return [_features_of(owners, found, exact.get(owners, [])) for owners, found in between.items()]
 
 
-def _features_of(owners: Pair, found: list[CommonAxis], touching: list[Contact]) -> CoaxialFeatures:
+def _features_of(owners: BodyPair, found: list[CommonAxis], touching: list[Contact]) -> CoaxialFeatures:
     """Collect what two bodies have about their axis.
 
     Where a pin fits exactly, equal bores without a pin on another axis hold nothing, such as those of two tubes that

@@ -14,7 +14,7 @@ from jaxkin.assembly.inference.contact_faces import shared_span
 from jaxkin.assembly.inference.fasteners import Stack, beside
 from jaxkin.assembly.inference.heads import is_exposed
 from jaxkin.assembly.inference.inference import Inference
-from jaxkin.assembly.inference.known import Known, Pair
+from jaxkin.assembly.inference.known import BodyPair, Known
 from jaxkin.assembly.inference.motors import are_flanged
 from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.assembly.inference.stop_faces import MAX_AXIAL_PLAY, MAX_LIFT, between_bores, nearest, play, stands_across
@@ -238,7 +238,7 @@ def _kept_with(owner: str, coaxial: CoaxialFeatures, kept: Sequence[CoaxialFeatu
     return {owner, *(other for each in about for other in each.owners if other not in coaxial.owners)}
 
 
-def _is_last(known: Known, owner: str, owners: Pair) -> bool:
+def _is_last(known: Known, owner: str, owners: BodyPair) -> bool:
     """Tell whether one of two bodies touches no third one, and has no axis in common with it."""
     body, related = known.body, [*known.touching, *(pair.parts for pair in known.axes)]
     return all(owner not in each or each <= owners for each in ({body[part] for part in pair} for pair in related))

@@ -36,7 +36,7 @@ from jaxkin.assembly.inference.held import (
 from jaxkin.assembly.inference.hinges import hinges
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.keyed import flatted_hubs, keyed_hubs, seated_on_squares, slit_hubs, squared_hubs
-from jaxkin.assembly.inference.known import Known, Pair
+from jaxkin.assembly.inference.known import BodyPair, Known
 from jaxkin.assembly.inference.lead_nuts import lead_nuts, on_lead_screws, on_travelling_screws
 from jaxkin.assembly.inference.link_ends import hinged_ends
 from jaxkin.assembly.inference.lock_nuts import locked_threads
@@ -100,7 +100,7 @@ class Inferred(NamedTuple):
     fasteners: frozenset[str]
     """The parts that were taken for fasteners by their form, and that neither slide, turn nor roll on what they are
     in."""
-    taken_back: set[Pair]
+    taken_back: set[BodyPair]
     """Those of the ignored pairs between which something would have been inferred."""
 
 

@@ -22,8 +22,8 @@ from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.joints.joint import Joint
 from jaxkin.topology.bodies import bodies
 
-Pair = frozenset[str]
-"""Two parts, or the first parts of two bodies."""
+BodyPair = frozenset[str]
+"""Two bodies, each by its first part, or two parts, in no order."""
 
 
 class Known:
@@ -42,9 +42,9 @@ class Known:
         fixed: Sequence[str],
         rigid: Sequence[Sequence[str]],
         joints: Sequence[Joint],
-        ignored: Collection[Pair] = (),
+        ignored: Collection[BodyPair] = (),
         clearance: float | None = None,
-        apart: Collection[Pair] = (),
+        apart: Collection[BodyPair] = (),
         springs: Collection[str] = (),
     ):
         """Take the solids, their contacts, and what the user says of them.
@@ -61,7 +61,7 @@ class Known:
         """The sub-assembly that each part is in, by its path; () for those of the whole assembly."""
         self.rigid = [tuple(group) for group in rigid]
         self.by_hand = dict.fromkeys(frozenset(joint.parts) for joint in joints).keys()
-        self.between: dict[Pair, list[Contact]] = {}
+        self.between: dict[BodyPair, list[Contact]] = {}
         """The exact contacts of each pair of parts."""
         for contact in contacts:
             self.between.setdefault(frozenset(contact.parts), []).append(contact)
@@ -78,10 +78,10 @@ class Known:
         """Springs, which stop nothing."""
         self.blocks: set[str] = set()
         """Blocks on a pin between walls, which have the form of a nut."""
-        self.rings: set[Pair] = set()
+        self.rings: set[BodyPair] = set()
         """The outer and the inner ring of each bearing, which are never one body; of a bearing that is one ring, that
         and what is in its hole."""
-        self.driven: set[Pair] = set()
+        self.driven: set[BodyPair] = set()
         """Motors that are one solid with their shaft, each with a hub on that."""
         self.in_ring_grooves: Mapping[tuple[str, str], float] = {}
         """Each screw that stands in a groove round a shaft, and that shaft, with the play between them."""
@@ -210,7 +210,7 @@ class Known:
             return inference
         return None if inference.joint or len(kept) < 2 else replace(inference, parts=tuple(kept))
 
-    def _jointed(self) -> frozenset[Pair]:
+    def _jointed(self) -> frozenset[BodyPair]:
         pairs = (*self.by_hand, *(each.parts for each in self.found if each.joint))
         return frozenset(frozenset(self.body[part] for part in pair) for pair in pairs)
 

@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.assembly.inference.inference import Inference
-from jaxkin.assembly.inference.known import Known, Pair
+from jaxkin.assembly.inference.known import BodyPair, Known
 from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.assembly.inference.stopped_joint import StoppedJoint
@@ -57,7 +57,7 @@ def guided_on_faces(known: Known) -> list[StoppedJoint]:
     Bodies that have an axis in common are left to that: a plate that turns on a pin is also between its cheeks.
     """
     body, result = known.body, []
-    flat: dict[Pair, list[Vector]] = {}
+    flat: dict[BodyPair, list[Vector]] = {}
     about = {frozenset(body[part] for part in each.parts) for each in known.axes}
     others = {*about, *known.jointed, *(frozenset(body[part] for part in each.parts) for each in known.tapped)}
     for contact in known.contacts:

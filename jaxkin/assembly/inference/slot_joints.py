@@ -10,7 +10,7 @@ from jaxkin.assembly.inference.axes import MIN_ENGAGED
 from jaxkin.assembly.inference.bores import shared
 from jaxkin.assembly.inference.coaxial_features import coaxial_features
 from jaxkin.assembly.inference.inference import Inference, offset_told
-from jaxkin.assembly.inference.known import Known, Pair
+from jaxkin.assembly.inference.known import BodyPair, Known
 from jaxkin.assembly.inference.one_screw import THROUGH
 from jaxkin.assembly.inference.slotted_pins import SlottedPin, round_ends
 from jaxkin.assembly.inference.stop_faces import ACROSS, MAX_AXIAL_PLAY, WIDER, play, stands_across
@@ -40,14 +40,14 @@ def slot_joints(known: Known, joined: Sequence[StoppedJoint] = ()) -> list[Infer
     body, every = known.body, known.measured.slotted_pins(known.clearance)
     axes = [pair for pair in (*known.axes, *known.tapped) if id(pair) not in known.slot_ends]
     others = {*known.jointed, *(frozenset(body[part] for part in each.parts) for each in axes)}
-    found: dict[Pair, list[SlottedPin]] = {}
+    found: dict[BodyPair, list[SlottedPin]] = {}
     for each in every:
         owners = frozenset(body[part] for part in (each.pin.part, each.part))
         if len(owners) < 2 or owners in others or _is_carried(known, each):
             continue
         if not _is_sleeved(known, each, every):
             found.setdefault(owners, []).append(each)
-    lying: set[Pair] = set()
+    lying: set[BodyPair] = set()
     for contact in known.contacts if found else ():
         owners = frozenset(body[part] for part in contact.parts)
         if owners in found:

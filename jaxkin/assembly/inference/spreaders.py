@@ -9,7 +9,7 @@ from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.fasteners import beside
 from jaxkin.assembly.inference.held import PRESSED
 from jaxkin.assembly.inference.inference import Inference
-from jaxkin.assembly.inference.known import Known, Pair
+from jaxkin.assembly.inference.known import BodyPair, Known
 from jaxkin.assembly.inference.sleeves import FLUSH, SAME_FIT, is_round, is_round_about
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
@@ -40,7 +40,7 @@ def spreaders(known: Known) -> list[Inference]:
     or welded in. Where something else is on the bar, which may turn or slide there, two such bars beside each other are
     asked for, in blind holes. What is round about the bar, as a wheel is, may turn on it.
     """
-    body, found = known.body, dict[Pair, list[_Spreader]]()
+    body, found = known.body, dict[BodyPair, list[_Spreader]]()
     on: dict[str, list[CommonAxis]] = {}
     for pair in known.axes:
         if not pair.virtual:

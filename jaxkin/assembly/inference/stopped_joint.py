@@ -11,7 +11,7 @@ from jaxkin.assembly.inference.axes import MAX_TILT, CommonAxis, shared_length
 from jaxkin.assembly.inference.bores import NEAR_LENGTH, SAME_ANGLE, SAME_LENGTH, Bore
 from jaxkin.assembly.inference.coaxial_features import CoaxialFeatures
 from jaxkin.assembly.inference.inference import Inference, offset_told
-from jaxkin.assembly.inference.known import Known, Pair
+from jaxkin.assembly.inference.known import BodyPair, Known
 from jaxkin.assembly.inference.slide_stops import Stop, slide_doubt
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
@@ -92,7 +92,7 @@ def _told(stop: Stop, free: float | None, room: float | None) -> str:
     }.get(stop, f"faces stop its slide, with a play of {free:.2g}")
 
 
-def _line(known: Known, pair: CommonAxis, owners: Pair) -> Bore:
+def _line(known: Known, pair: CommonAxis, owners: BodyPair) -> Bore:
     """Find the bore whose axis the joint turns about, where those of the two bodies are not quite one.
 
     It is an axis that parts of both bodies have alike, whatever is off it, such as a bolt. Else it is that of the pin:

@@ -11,7 +11,7 @@ from jaxkin.assembly.inference.axes import CommonAxis, engaged
 from jaxkin.assembly.inference.bores import SAME_LENGTH, Bore
 from jaxkin.assembly.inference.fasteners import Stack, beside
 from jaxkin.assembly.inference.inference import Inference
-from jaxkin.assembly.inference.known import Known, Pair
+from jaxkin.assembly.inference.known import BodyPair, Known
 from jaxkin.assembly.inference.one_screw import THROUGH
 from jaxkin.assembly.inference.screwed import crossings
 from jaxkin.assembly.inference.sleeves import is_round_about
@@ -98,7 +98,7 @@ def screwed_flat(known: Known) -> list[Inference]:
     Nothing else holds them to each other, so that they would slide and turn on that face.
     """
     body = known.body
-    between: dict[Pair, list[Contact]] = {}
+    between: dict[BodyPair, list[Contact]] = {}
     for contact in known.contacts:
         between.setdefault(frozenset(body[part] for part in contact.parts), []).append(contact)
     used = {id(bore) for pair in (*known.axes, *known.tapped) for bore in (pair.one, pair.other)}
@@ -181,7 +181,7 @@ def lone_screws(known: Known) -> list[Inference]:
     body, jointed = known.body, known.jointed
     ties = {frozenset(body[part] for part in pair) for pair in (*known.touching, *known.jointed)}
     ties |= {frozenset(body[part] for part in pair.parts) for pair in (*known.axes, *known.tapped)}
-    common: dict[Pair, list[CommonAxis]] = {}
+    common: dict[BodyPair, list[CommonAxis]] = {}
     for pair in (*known.axes, *known.tapped):
         common.setdefault(frozenset(body[part] for part in pair.parts), []).append(pair)
     result = []

@@ -5,7 +5,7 @@ from __future__ import annotations
 from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.fasteners import beside
 from jaxkin.assembly.inference.inference import Inference
-from jaxkin.assembly.inference.known import Known, Pair
+from jaxkin.assembly.inference.known import BodyPair, Known
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
@@ -16,7 +16,7 @@ def on_undrawn_rods(known: Known) -> list[Inference]:
 
     A bush is there for what moves in it. Screws would draw the bodies together, as those in threaded inserts do.
     """
-    body, common = known.body, dict[Pair, list[CommonAxis]]()
+    body, common = known.body, dict[BodyPair, list[CommonAxis]]()
     touching = {frozenset(body[part] for part in pair) for pair in known.touching}
     for pair in known.axes:
         owners = frozenset(body[part] for part in pair.parts)
