@@ -17,12 +17,11 @@ from jaxkin.linkage.coupled import counted_from, coupled
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.reassembly import Reassembly, close
-from jaxkin.mobility.alignment import extent
 from jaxkin.topology.structure import structure
 
 ROUNDING = 1e-12
-"""Radians, and lengths over the extent of the joints, up to which parts of a closed pose are not moved: the places of a
-file are sums of its numbers along two chains, which differ by roundings."""
+"""Radians, and lengths over the largest coordinate of a joint, up to which parts of a closed pose are not moved: the
+places of a file are sums of its numbers along two chains, which differ by roundings."""
 
 
 def closed_export(
@@ -54,7 +53,7 @@ def closed_export(
     if not found.closed:
         note = f"the loops of the file do not close, and each joint is taken as it stands on its first part: {found}"
         return tuple(parts), replace(exported, notes=(*exported.notes, note))
-    size = extent(joints)
+    size = max((float(np.abs(each.frames_1[:, :3, 3]).max()) for each in joints), default=0.0)
     if all(move.length <= ROUNDING * size and move.angle <= ROUNDING for move in found.moves.values()):
         return tuple(parts), exported
     made = found.mechanism.joints

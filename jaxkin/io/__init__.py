@@ -10,7 +10,8 @@
 | URDF | `urdf`, `robot_loops` | `urdf_writer` |
 | MJCF | `mjcf`, and the `mjcf_...` | `mjcf_writer` |
 | SDF | `sdf`, and the `sdf_...` | |
-| FreeCAD, its solver | `fcstd`, `fcstd_document`, `asmt`, `marker_joints`, `marker_ties` | `asmt_writer`, `asmt_ties` |
+| FreeCAD, its solver | `fcstd`, `fcstd_document`, `asmt`, `marker_joints`, `marker_ties` | `asmt_writer`,
+| | | `asmt_joints`, `asmt_ties` |
 | studies | `study`, `study_file` and the other `study_...`, `ranges`, `named_effects` | `study_writer` |
 | mechanisms | `saved_mechanism` | `mechanism_file` |
 | motions | | `writers`, `tables`, `gltf`; of any length `long_motion` |

@@ -17,7 +17,7 @@ from jaxkin._files import check_file
 from jaxkin._names import nearest
 from jaxkin.geometry.inertial import Inertial
 from jaxkin.geometry.pose import Transform, is_rigid
-from jaxkin.io.marker_joints import CHAINS, KINDS, Marker, MarkerJoints
+from jaxkin.io.marker_joints import ANGLES, CHAINS, KINDS, Marker, MarkerJoints
 from jaxkin.io.marker_ties import GEAR, RACK, SCREW, TIES, MarkerTie, RigidGroups, add_tie
 from jaxkin.io.robot_inertials import inertial
 from jaxkin.io.robot_model import WORLD, RobotLink, RobotModel, numbers, placed
@@ -206,11 +206,11 @@ class _Reader:
         where = f"{self.file}: {_called(node)}"
         if node.text in NOT_KEPT:
             self.made.notes.append(f"{where} is not kept")
-        elif node.text in KINDS or node.text in CHAINS:
+        elif node.text in (*KINDS, *ANGLES, *CHAINS):
             sizes = self._sizes(node, ("offset", "distance", "angle"))
             self.made.add(node.text, node.said("Name"), *self._ends(node), sizes, _called(node))
         elif node.text not in TIES:
-            raise ValueError(f"{where}: expected one of {', '.join((*KINDS, *CHAINS, *TIES, *NOT_KEPT))}")
+            raise ValueError(f"{where}: expected one of {', '.join((*KINDS, *ANGLES, *CHAINS, *TIES, *NOT_KEPT))}")
 
     def _sizes(self, node: AsmtNode, names: Sequence[str]) -> dict[str, float]:
         """Read the sizes of a joint: of a tie those that it must have, of others those that are there."""

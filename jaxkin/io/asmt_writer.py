@@ -20,8 +20,9 @@ from jaxkin.geometry.inertial import Inertial
 from jaxkin.geometry.pose import Transform
 from jaxkin.geometry.units import METRES
 from jaxkin.io.asmt import FIRST_LINES, LIMITS, MOTIONS, UNKNOWN_MASS
+from jaxkin.io.asmt_joints import JOINT_OF, is_known, marked
 from jaxkin.io.asmt_ties import tie
-from jaxkin.io.marker_joints import COORDINATES, KINDS
+from jaxkin.io.marker_joints import COORDINATES
 from jaxkin.io.marker_ties import SCREW
 from jaxkin.io.names import unique
 from jaxkin.io.numbers import written
@@ -37,21 +38,12 @@ if TYPE_CHECKING:
     from jaxkin.effects.forces.masses import Masses
     from jaxkin.mechanism.mechanism import Mechanism
 
-JOINT_OF = {kind: name for name, kind in KINDS.items()}
-"""Kind of joint -> what ASMT calls it."""
-
 SINGLE_OF = {
     HINGE: JOINT_OF[JointKind.REVOLUTE],
     SLIDE: JOINT_OF[JointKind.PRISMATIC],
     BALL: JOINT_OF[JointKind.SPHERICAL],
 }
 """Kind of a single motion -> joint."""
-
-ACROSS = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]])
-"""Rotation whose z axis is the first axis of a universal joint, y."""
-
-ALONG = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
-"""Rotation whose z axis is the second axis of a universal joint, x."""
 
 GROUND = ""
 """What the assembly itself is called here: no part has this name."""
@@ -134,8 +126,8 @@ class _Writer:
                 self.joints.append(_Written(JOINT_OF[JointKind.FIXED], name, sides))
         for number, joint in enumerate(mechanism.all_joints):
             moved = [column for place, column in self.motors if place == number]
-            if self._is_one(joint, moved):
-                self._one(number, joint, moved)
+            if is_known(joint, moved):
+                self._one(joint, moved)
             else:
                 self._chain(joint, names[number], moved)
         self.joints += self.threads  # last, as couplings: joints keep their names where others have the same
@@ -151,28 +143,17 @@ class _Writer:
             sizes = tuple((key, written(size)) for key, size in found.sizes)
             self.joints.append(_Written(found.kind, coupling.name, found.sides, sizes))
 
-    def _is_one(self, joint: Joint, moved: Sequence[int]) -> bool:
-        """Tell whether the format has the joint, with the limits and motors that it has."""
-        if joint.kind not in JOINT_OF and joint.kind is not JointKind.SCREW:
-            return False
-        return joint.kind in COORDINATES or not (joint.limits or moved)
-
-    def _one(self, number: int, joint: Joint, moved: Sequence[int]) -> None:
+    def _one(self, joint: Joint, moved: Sequence[int]) -> None:
         """Write a joint that the format has."""
-        frame = np.asarray(joint.frames_1, float)[0]
-        first = second = frame
-        if joint.kind is JointKind.UNIVERSAL:
-            first, second = frame @ placed(ACROSS, np.zeros(3)), frame @ placed(ALONG, np.zeros(3))
-        sides = ((joint.parts[0], first), (joint.parts[1], second))
-        screw = joint.kind is JointKind.SCREW
-        kind = JOINT_OF[JointKind.CYLINDRICAL if screw else joint.kind]
-        if screw:
+        kind, markers, sizes = marked(joint)
+        sides = ((joint.parts[0], markers[0]), (joint.parts[1], markers[1]))
+        if joint.kind is JointKind.SCREW:
             pitch = ("pitch", written(float(joint.pitch)))
             self.threads.append(_Written(SCREW, f"{joint.name} thread", sides, (pitch,)))
         place, columns = len(self.joints), COORDINATES.get(joint.kind, ())
-        self.joints.append(_Written(kind, joint.name, sides))
+        self.joints.append(_Written(kind, joint.name, sides, tuple((key, written(size)) for key, size in sizes)))
         self.motions += [(place, columns[column]) for column in moved]
-        self.limits += [(place, *both) for both in zip(columns, joint.limits, strict=bool(joint.limits))]
+        self.limits += [(place, *both) for both in zip(columns, joint.limits, strict=False)]
 
     def _chain(self, joint: Joint, names: Sequence[str], moved: Sequence[int]) -> None:
         """Write a joint as a chain of joints of one coordinate each, with parts between them."""

@@ -13,7 +13,7 @@ import numpy as np
 
 from jaxkin.geometry.pose import Transform, unit
 from jaxkin.io.fcstd_document import Document, Item, Reference
-from jaxkin.io.marker_joints import Marker, MarkerJoints
+from jaxkin.io.marker_joints import ANGLE, RIGHT_ANGLE, STRAIGHT, Marker, MarkerJoints
 from jaxkin.io.marker_ties import GEAR, RACK, SCREW, SLIDES, TIES, MarkerTie, RigidGroups, add_tie
 from jaxkin.io.names import unique
 from jaxkin.io.robot_model import RobotLink, RobotModel, placed
@@ -40,7 +40,7 @@ TYPES = ("Fixed", "Revolute", "Cylindrical", "Slider", "Ball", "Distance", "Para
 JOINT_OF = {
     "Fixed": "FixedJoint", "Revolute": "RevoluteJoint", "Cylindrical": "CylindricalJoint",
     "Slider": "TranslationalJoint", "Ball": "SphericalJoint", "Parallel": "ParallelAxesJoint",
-    "Perpendicular": "PerpendicularJoint", "Angle": "AngleJoint", "RackPinion": RACK, "Screw": SCREW, "Gears": GEAR,
+    "Perpendicular": RIGHT_ANGLE, "Angle": ANGLE, "RackPinion": RACK, "Screw": SCREW, "Gears": GEAR,
     "Belt": GEAR,
 }  # fmt: skip
 """Type of joint -> the joint of its solver."""
@@ -54,9 +54,6 @@ LIMITED = {
     "Cylindrical": (("z", "Length", 1.0), ("phi", "Angle", np.pi / 180.0)),
 }
 """Type of joint -> coordinates with limits, the name of these, and their unit."""
-
-STRAIGHT = 1e-9
-"""Radians from a multiple of half a turn up to which an angle keeps its axes parallel, FreeCAD's own."""
 
 
 def read_fcstd(path: Path) -> RobotModel:
@@ -243,7 +240,7 @@ class _Reader:
             )
         elif kind not in TIES:
             sizes = {"distance": joint.number("Distance"), "angle": self._angle(joint)}
-            keep = {"SphSphJoint": ("distance",), "AngleJoint": ("angle",)}.get(kind, ())
+            keep = {"SphSphJoint": ("distance",), ANGLE: ("angle",)}.get(kind, ())
             self.made.add(
                 kind, self.joints[joint.name], one, other, {key: sizes[key] for key in keep}, self._text(joint)
             )

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from jaxkin.geometry.inertial import NONE
-from jaxkin.geometry.pose import Transform, inverse, unit
+from jaxkin.geometry.pose import Transform, unit
 from jaxkin.io.robot_model import RobotJoint, RobotLink, along, placed
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.kinds import JointKind
@@ -22,7 +22,8 @@ from jaxkin.joints.two_frames import two_frames
 KINDS = {
     "FixedJoint": JointKind.FIXED, "RevoluteJoint": JointKind.REVOLUTE, "TranslationalJoint": JointKind.PRISMATIC,
     "CylindricalJoint": JointKind.CYLINDRICAL, "SphericalJoint": JointKind.SPHERICAL, "PlanarJoint": JointKind.PLANAR,
-    "UniversalJoint": JointKind.UNIVERSAL,
+    "UniversalJoint": JointKind.UNIVERSAL, "ParallelAxesJoint": JointKind.SCHOENFLIES,
+    "NoRotationJoint": JointKind.CARTESIAN,
 }  # fmt: skip
 """Joints -> kind."""
 
@@ -31,11 +32,20 @@ COORDINATES = {
     JointKind.PRISMATIC: ("z",),
     JointKind.SCREW: ("phi",),
     JointKind.CYLINDRICAL: ("z", "phi"),
+    JointKind.PLANAR: ("x", "y", "phi"),
+    JointKind.SCHOENFLIES: ("x", "y", "z", "phi"),
 }
 """Kinds of joints whose coordinates motions and limits are of -> names of these."""
 
-CHAINS = ("PointInLineJoint", "PointInPlaneJoint", "LineInPlaneJoint", "ParallelAxesJoint", "PerpendicularJoint",
-          "AngleJoint", "NoRotationJoint", "SphSphJoint", "CylSphJoint", "RevCylJoint", "RevRevJoint")  # fmt: skip
+ANGLE, RIGHT_ANGLE = "AngleJoint", "PerpendicularJoint"
+ANGLES = (ANGLE, RIGHT_ANGLE)
+"""Joints that keep the angle between their two z axes."""
+
+STRAIGHT = 1e-9
+"""Radians from a multiple of half a turn up to which an angle keeps its axes parallel, FreeCAD's own."""
+
+CHAINS = ("PointInLineJoint", "PointInPlaneJoint", "LineInPlaneJoint", "SphSphJoint", "CylSphJoint", "RevCylJoint",
+          "RevRevJoint")  # fmt: skip
 """Joints that are several in turn, with parts without a solid between them."""
 
 AT_ZERO = {
@@ -47,7 +57,7 @@ AT_ZERO = {
 """Joints that keep a distance -> the joint that they are where the distance is zero."""
 
 TURNABLE = ("SphericalJoint", "UniversalJoint", "PointInLineJoint", "PointInPlaneJoint", "LineInPlaneJoint",
-            "PerpendicularJoint", "AngleJoint", "SphSphJoint", "CylSphJoint")  # fmt: skip
+            "SphSphJoint", "CylSphJoint", *ANGLES)  # fmt: skip
 """Joints whose axes are not parallel: an opposite axis is no case of its own."""
 
 LOCKED = ("FixedJoint", "TranslationalJoint", "NoRotationJoint")
@@ -85,7 +95,7 @@ class MarkerJoints:
     notes: list[str] = field(default_factory=list)
 
     def add(self, kind: str, name: str, one: Marker, other: Marker, sizes: Mapping[str, float], text: str) -> None:
-        """Add a joint of `KINDS` or `CHAINS`, with its distance, offset or angle in `sizes`.
+        """Add a joint of `KINDS`, `ANGLES` or `CHAINS`, with its distance, offset or angle in `sizes`.
 
         `text` is what the file calls the joint. Raises ValueError for the axes of a universal joint that are not
         perpendicular.
@@ -96,11 +106,18 @@ class MarkerJoints:
         if kind in AT_ZERO and not sizes.get("distance", 0.0):
             kind = AT_ZERO[kind]
         first = one.pose @ placed(np.eye(3), (0.0, 0.0, sizes.get("offset", 0.0)))
-        second = _nearest(kind, first, other.pose)
+        angle = sizes.get("angle", np.pi / 2)
+        if kind == ANGLE and abs(np.sin(angle)) < STRAIGHT:  # parallel, or opposite: two equations, and not one
+            kind, second = "ParallelAxesJoint", other.pose @ HALF_TURNS[int(np.cos(angle) < 0)]
+        else:
+            second = _nearest(kind, first, other.pose)
+        if kind in ANGLES:
+            self.joints[name] = _of_angle(name, (one.link, other.link), first, second, angle, text)
+            return
         if kind in KINDS:
             steps: Sequence[_Step] = (_Step(KINDS[kind], first, second),)
         else:
-            steps = _chain(kind, first, second, sizes)
+            steps = _chain(kind, first, second, sizes.get("distance", 0.0))
         between = [f"{name}/{number}" for number in range(1, len(steps))]
         for link, step in zip(between, steps, strict=False):
             self.links[link] = RobotLink(link, step.behind, inertial=NONE)
@@ -136,6 +153,16 @@ class MarkerJoints:
         self.joints[joint.name] = replace(joint, limits=tuple(limits))
 
 
+def _of_angle(
+    name: str, parts: tuple[str, str], first: Transform, second: Transform, angle: float, text: str
+) -> RobotJoint:
+    """Make the joint that keeps the angle between the z axes of two frames: its slides and its turn about the axis of
+    the first one are at the origin of the second one."""
+    there = placed(first[:3, :3], second[:3, 3])
+    turn = two_frames(JointKind.REVOLUTE, _tilted(there, second[:3, 2], angle), second)
+    return RobotJoint(name, parts, JointKind.CONSTANT_ANGLE, there, there, text, turn=(turn.frame_1, turn.frame_2))
+
+
 def _nearest(kind: str, first: Transform, second: Transform) -> Transform:
     """Turn the second marker by half a turn, where its axes are opposite to those of the first one."""
     if kind in TURNABLE:
@@ -145,32 +172,20 @@ def _nearest(kind: str, first: Transform, second: Transform) -> Transform:
     return second @ HALF_TURNS[1] if first[:3, 2] @ second[:3, 2] < 0 else second
 
 
-def _chain(kind: str, first: Transform, second: Transform, sizes: Mapping[str, float]) -> tuple[_Step, ...]:
+def _chain(kind: str, first: Transform, second: Transform, distance: float) -> tuple[_Step, ...]:
     """List the joints that one joint is, from the first marker to the second."""
     point = second[:3, 3]
     there = placed(first[:3, :3], point)
     z = first[:3, 2]
-    level = first @ placed(np.eye(3), (0.0, 0.0, float((point - first[:3, 3]) @ z)))
-    distance = sizes.get("distance", 0.0)
     last = _Step(JointKind.SPHERICAL, second, second)
     match kind:
         case "PointInLineJoint":
             return _Step(JointKind.PRISMATIC, first, there), last
         case "PointInPlaneJoint":
-            x, y, *_ = (inverse(first) @ second)[:3, 3].tolist()
-            level = first @ placed(np.eye(3), (x, y, 0.0))
-            return *_slides(level, there, np.eye(3)[:2]), last
+            return _Step(JointKind.RECTANGULAR, first, there), last
         case "LineInPlaneJoint":
             flat = _tilted(second, z, np.pi / 2)
             return _Step(JointKind.PLANAR, first, flat), _Step(JointKind.REVOLUTE, second, second)
-        case "ParallelAxesJoint":
-            return _Step(JointKind.PLANAR, level, second), _Step(JointKind.PRISMATIC, second, second)
-        case "PerpendicularJoint" | "AngleJoint":
-            tilted = _tilted(second, z, sizes.get("angle", np.pi / 2))
-            slide = _Step(JointKind.PRISMATIC, tilted, tilted)
-            return _Step(JointKind.PLANAR, level, tilted), slide, _Step(JointKind.REVOLUTE, second, second)
-        case "NoRotationJoint":
-            return _slides(there, second, np.eye(3))
     away = point - first[:3, 3]
     if kind == "SphSphJoint":
         near = placed(np.eye(3), point - distance * _direction(away, z))
@@ -185,15 +200,6 @@ def _chain(kind: str, first: Transform, second: Transform, sizes: Mapping[str, f
     beside = second.copy()
     beside[:3, 3] += ((first[:3, 3] - point) @ z) * z
     return _Step(JointKind.REVOLUTE, first, axis), _Step(JointKind.CYLINDRICAL, beside, second)
-
-
-def _slides(first: Transform, second: Transform, axes: np.ndarray) -> tuple[_Step, ...]:
-    """List slides along axes of the second frame, at its point; the first of them begins at the first frame."""
-    turns = [placed(along(axis), np.zeros(3)) for axis in axes]
-    return tuple(
-        _Step(JointKind.PRISMATIC, (second if number else first) @ turn, second @ turn)
-        for number, turn in enumerate(turns)
-    )
 
 
 def _tilted(frame: Transform, z: np.ndarray, angle: float) -> Transform:

@@ -11,6 +11,7 @@ from typing import NamedTuple
 from xml.etree.ElementTree import Element
 
 import numpy as np
+from jaxtyping import Float
 
 from jaxkin.geometry.inertial import Inertial
 from jaxkin.geometry.pose import Transform, rotation
@@ -90,6 +91,19 @@ class RobotJoint:
     """What the file calls its coordinates at the zero; empty where that is zero too."""
     pitch: float = 0.0
     """Metres a turn, of a screw."""
+    turn: tuple[Transform, Transform] | None = None
+    """Of a joint of constant angle the frames, on the first and on the second link, of its turn about the axis of the
+    second one, which follows the slides and the turn of the two frames above; None for all others."""
+
+    @property
+    def frames_1(self) -> Float[np.ndarray, "frames 4 4"]:
+        """The frames on the first link, one a movement."""
+        return np.stack([self.frame_1] if self.turn is None else [self.frame_1, self.turn[0]])
+
+    @property
+    def frames_2(self) -> Float[np.ndarray, "frames 4 4"]:
+        """The frames on the second link."""
+        return np.stack([self.frame_2] if self.turn is None else [self.frame_2, self.turn[1]])
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,6 +19,7 @@ from jaxkin.io.names import cleaned, unique
 from jaxkin.io.robot_drawn import Drawn, triangles_of
 from jaxkin.io.robot_model import LinkShape, RobotJoint, RobotLink, RobotModel
 from jaxkin.joints.combine import Chain
+from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.on_frames import MOVEMENT_OF
 from jaxkin.topology.components import connected
 
@@ -27,6 +28,9 @@ MARK = 0.02
 
 LEAST_EXTENT = 1e-3
 """Extent in metres that a robot is given at least: all links of one may begin at the same point."""
+
+_IN_TURN = {JointKind.CONSTANT_ANGLE: (JointKind.SCHOENFLIES, JointKind.REVOLUTE)}
+"""Kind of a joint that is two joints in turn, without a part between them -> these."""
 
 
 def parts_and_export(model: RobotModel, path: Path, seconds: float | None) -> tuple[tuple[Part, ...], str, Exported]:
@@ -59,7 +63,7 @@ def parts_and_export(model: RobotModel, path: Path, seconds: float | None) -> tu
         ),
         system="robot file",
     )
-    parts, exported = closed_export(parts, exported, [each.frame_2[None] for each in model.joints], model.unit)
+    parts, exported = closed_export(parts, exported, [each.frames_2 for each in model.joints], model.unit)
     return parts, model.unit, exported
 
 
@@ -95,7 +99,7 @@ def _refuse_repeats(file: str, what: str, names: list[str]) -> None:
 
 def _constraint(each: RobotJoint, name: str, link_names: Mapping[str, str]) -> Constraint:
     parts = (link_names[each.parts[0]], link_names[each.parts[1]])
-    chain = Chain((MOVEMENT_OF[each.kind],), each.frame_1[None])
+    chain = Chain(tuple(MOVEMENT_OF[kind] for kind in _IN_TURN.get(each.kind, (each.kind,))), each.frames_1)
     return Constraint(
         name, parts, each.text, chain, each.kind, limits=each.limits, pitch=each.pitch, values=each.values
     )

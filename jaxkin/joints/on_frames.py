@@ -26,6 +26,9 @@ _OF_TWO_FRAMES = (
     JointKind.PLANAR,
     JointKind.SPHERICAL,
     JointKind.SCREW,
+    JointKind.RECTANGULAR,
+    JointKind.CARTESIAN,
+    JointKind.SCHOENFLIES,
     JointKind.FIXED,
 )
 MOVEMENT_OF = {
@@ -54,10 +57,10 @@ def joint_on_frames(
     on part 1 along z of `frame1`, and that on part 2 along z of `frame2`; these nowhere agree, so that its limits count
     from this pose.
 
-    `kind` is "revolute", "prismatic", "cylindrical", "planar", "spherical", "universal", "screw" or "fixed". `pitch` is
-    the advance of a screw per turn, unit of the mechanism; its limits count whole turns, told by its advance. Raises
-    ValueError for other kinds, for what is no rigid pose, for axes of a universal joint that are not perpendicular, for
-    a screw without pitch, and for the pitch of what is no screw.
+    `kind` is "revolute", "prismatic", "cylindrical", "planar", "spherical", "universal", "screw", "rectangular",
+    "cartesian", "schoenflies" or "fixed". `pitch` is the advance of a screw per turn, unit of the mechanism; its limits
+    count whole turns, told by its advance. Raises ValueError for other kinds, for what is no rigid pose, for axes of a
+    universal joint that are not perpendicular, for a screw without pitch, and for the pitch of what is no screw.
     """
     places = by_name(places or {}, f"joint {name!r}: places", "{'arm': np.eye(4)}")
     if not isinstance(kind, str) or kind not in MOVEMENT_OF:

@@ -13,6 +13,10 @@ from jaxkin.joints.kinds import JointKind
 
 Z = np.array([0.0, 0.0, 1.0])
 """The axis of joint frames."""
+_IN_SPACE = (JointKind.CARTESIAN, JointKind.SCHOENFLIES)
+"""Joints that slide along all three axes of their frame."""
+_ACROSS = (JointKind.PLANAR, JointKind.RECTANGULAR, *_IN_SPACE)
+"""Joints that slide along x and y of their frame."""
 
 
 class TwoFrames(NamedTuple):
@@ -40,11 +44,17 @@ def two_frames(kind: JointKind, first: Transform, second: Transform, pitch: floa
     between = inverse(first) @ second
     angle = float(np.arctan2(between[1, 0], between[0, 0]))
     x, y, advance = between[:3, 3].tolist()
-    if kind is JointKind.PLANAR:
-        first = first @ _at(np.array([x, y, 0.0]))
+    if kind in _ACROSS:
+        first = first @ _at(np.array([x, y, advance if kind in _IN_SPACE else 0.0]))
     if kind is JointKind.SCREW and pitch:  # its advance tells the whole turns, which frames do not
         angle += TURN * round(advance / pitch - angle / TURN)
-    turns = kind in (JointKind.REVOLUTE, JointKind.CYLINDRICAL, JointKind.PLANAR, JointKind.SCREW)
+    turns = kind in (
+        JointKind.REVOLUTE,
+        JointKind.CYLINDRICAL,
+        JointKind.PLANAR,
+        JointKind.SCHOENFLIES,
+        JointKind.SCREW,
+    )
     slides = kind in (JointKind.PRISMATIC, JointKind.CYLINDRICAL, JointKind.SCREW)
     back = np.eye(4)
     back[:3, :3] = rotation(Z, -angle) if turns else np.eye(3)
@@ -54,6 +64,9 @@ def two_frames(kind: JointKind, first: Transform, second: Transform, pitch: floa
         JointKind.PRISMATIC: (advance,),
         JointKind.CYLINDRICAL: (advance, angle),
         JointKind.PLANAR: (x, y, angle),
+        JointKind.RECTANGULAR: (x, y),
+        JointKind.CARTESIAN: (x, y, advance),
+        JointKind.SCHOENFLIES: (x, y, advance, angle),
         JointKind.SCREW: (angle,),
     }
     return TwoFrames(first, second @ back, values.get(kind, ()))

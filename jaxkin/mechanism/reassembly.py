@@ -124,7 +124,8 @@ def close(
         worst = max(still_open, key=lambda group: group.after)
         left = tell_opening(given, mechanism.unit, worst.loops, worst.q)
         return Reassembly(mechanism, False, before, after, rest, (), 0, left)
-    if all(group.loops.coincide for group in groups):
+    # the frames of a joint in no loop may differ, too: its part has a place, though nothing has to be solved
+    if all(group.loops.coincide for group in groups) and all(joint.coincides for joint in given.joints):
         return Reassembly(mechanism, True, before, after, rest, (), 0, None)
     moved = [group for group in groups if group.q.any()]
     searched = moved if look_around else []

@@ -54,6 +54,25 @@ def test_a_joint_keeps_its_limits_and_motor_beside_a_coupling_and_a_thread_of_it
     assert [set(each.coordinates) for each in back.linkage.couplings] == [{"A.phi", "B thread.phi"}]
 
 
+@pytest.mark.parametrize("limits", [None, {"phi": (-0.5, 2.0), "z": (0.0, 3.0)}, {"x": (-1.0, 1.0)}])
+def test_joints_that_keep_directions_come_back_as_they_are(tmp_path, limits):
+    """But with limits along x, which the format has none of: those are chains."""
+    joints = [
+        jk.cartesian("gantry", GROUND, "a", axis=(1, 1, 0), direction=(1, -1, 3), point=(1, 2, 3)),
+        jk.schoenflies("hand", "a", "b", axis=(0, 3, 4), direction=(5, 4, -3), point=(3, 2, 1), limits=limits),
+        jk.constant_angle("slope", "b", "c", axis1=(0, 3, 4), axis2=(1, 1, 1), point=(3, 2, 1)),
+        jk.constant_angle("square", "c", "d", axis1=(0, 3, 4), axis2=(1, 0, 0), point=(3, 2, 1)),
+    ]
+    mechanism = jk.Mechanism.build(fixed=[GROUND], joints=joints)
+    back = written(mechanism, tmp_path).mechanism()
+    if limits and "x" in limits:
+        assert back.joints["hand_x"].limits == ((-1.0, 1.0),) and "hand" not in back.joints
+        return
+    assert [joint.kind for joint in back.all_joints if joint.freedoms] == [joint.kind for joint in joints]
+    assert back.joints["hand"].limits == mechanism.joints["hand"].limits
+    compare_moved(mechanism, back, single=False, metres=False)
+
+
 def test_the_ground_is_called_world_where_the_mechanism_has_one(tmp_path):
     arm = jk.Mechanism.build(fixed=["world"], joints=[jk.revolute("A", "world", "arm", point=(0, 0, 0), axis=Z)])
     back = written(arm, tmp_path).mechanism()

@@ -92,16 +92,35 @@ def test_gears_belts_racks_and_screws_are_couplings(tmp_path, kind, sizes, ratio
 
 
 @pytest.mark.parametrize(
-    ("kind", "sizes", "freedoms"),
-    [("Parallel", {}, 4), ("Perpendicular", {}, 5), ("Angle", {"Angle": number(90.0)}, 5),
-     ("Angle", {"Angle": number(180.0)}, 4), ("Cylindrical", {}, 2), ("Ball", {}, 3), ("Fixed", {}, 0)],
+    ("kind", "sizes", "freedoms", "found"),
+    [("Parallel", {}, 4, "schoenflies"), ("Perpendicular", {}, 5, "constant angle"),
+     ("Angle", {"Angle": number(90.0)}, 5, "constant angle"), ("Angle", {"Angle": number(180.0)}, 4, "schoenflies"),
+     ("Cylindrical", {}, 2, "cylindrical"), ("Ball", {}, 3, "spherical"), ("Fixed", {}, 0, None)],
 )  # fmt: skip
-def test_joints_leave_as_many_freedoms_as_in_freecad(tmp_path, kind, sizes, freedoms):
+def test_joints_leave_as_many_freedoms_as_in_freecad(tmp_path, kind, sizes, freedoms, found):
     upright = kind not in ("Perpendicular", "Angle") or "180" in str(sizes)
     place = pose(turn=SAME if upright else rotation(X, np.pi / 2))
     one = joint(kind, ("Assembly", "base.Face1"), ("Assembly", "part.Face1"), np.eye(4), np.eye(4), **sizes)
     objects = assembled({"j": one}, {"base": np.eye(4), "part": place})
-    assert jk.load(document(tmp_path / "a.fcstd", objects)).mechanism().mobility().useful == freedoms
+    mechanism = jk.load(document(tmp_path / "a.fcstd", objects)).mechanism()
+    assert mechanism.mobility().useful == freedoms
+    assert [joint.kind for joint in mechanism.all_joints] == ([found] if found else [])
+
+
+def test_an_angle_joint_keeps_its_angle_on_a_part_that_is_not_there_yet(tmp_path):
+    """A lid drawn shut, whose angle to the box is 30 degrees: it stands at that, and keeps it, however it moves."""
+    lid = joint("Angle", ("Assembly", "base.Face1"), ("Assembly", "lid.Face1"), np.eye(4), np.eye(4),
+                Angle=number(30.0))  # fmt: skip
+    objects = assembled({"lid angle": lid}, {"base": np.eye(4), "lid": np.eye(4)})
+    loaded = jk.load(document(tmp_path / "a.FCStd", objects))
+    assert any("moved: lid by 0 mm and 0.524 rad" in note for note in loaded.exported.notes)
+    mechanism = loaded.mechanism()
+    assert mechanism.mobility().freedoms == 5
+    axis = np.asarray(mechanism.all_joints[0].frames_1)[-1, :3, 2]  # of the lid, where it stands now
+    motion = mechanism.sweep({name: [0.0, 0.4] for name in mechanism.all_joints[0].full_names})
+    moved = np.asarray(motion.transforms["lid"])[:, :3, :3] @ axis
+    np.testing.assert_allclose(moved[:, 2], np.cos(np.pi / 6), atol=1e-15)
+    assert np.abs(moved[1] - moved[0]).max() > 0.1
 
 
 @pytest.mark.parametrize(("element", "kept"), [("Vertex1", True), ("Face1", False)])

@@ -105,6 +105,64 @@ def test_what_a_joint_demands_of_its_markers_holds_however_it_moves(tmp_path, ki
 
 
 @pytest.mark.parametrize(
+    ("kind", "found"),
+    [("ParallelAxesJoint", "schoenflies"), ("PerpendicularJoint", "constant angle"), ("AngleJoint", "constant angle"),
+     ("NoRotationJoint", "cartesian")],
+)  # fmt: skip
+def test_what_keeps_directions_only_is_one_joint_without_a_part_between(tmp_path, kind, found):
+    local, sizes, *_ = CASES[kind]
+    mechanism = assembly(
+        tmp_path, {"I": np.eye(4)}, {"part": {"J": local}}, [(kind, "j", "I", "part/J", sizes)]
+    ).mechanism()
+    assert mechanism.parts == ("world", "part") and [joint.kind for joint in mechanism.all_joints] == [found]
+
+
+@pytest.mark.parametrize("angle", [0.0, np.pi])
+def test_an_angle_of_no_or_half_a_turn_takes_two_freedoms(tmp_path, angle):
+    """The cosine of the solver is 1 or -1 where the axes are parallel or opposite, and nowhere else."""
+    local = pose(turned(x=angle, z=0.5), (0.3, 0.5, 0.2))
+    joints = [("AngleJoint", "j", "I", "part/J", {"theIzJz": repr(angle)})]
+    loaded = assembly(tmp_path, {"I": np.eye(4)}, {"part": {"J": local}}, joints)
+    mechanism = loaded.mechanism()
+    assert not loaded.exported.notes and mechanism.mobility().freedoms == 4
+    there = mechanism.sweep(drive_of(mechanism, 4)).transforms["part"] @ local
+    np.testing.assert_allclose(there[:, 2, 2], np.cos(angle), atol=1e-15)
+
+
+def test_axes_that_are_opposite_where_they_are_to_be_parallel_are_turned(tmp_path):
+    """Unlike parallel axes, those at an angle of zero have a sense."""
+    local = pose(turned(x=np.pi))
+    for kind, moved in (("AngleJoint", True), ("ParallelAxesJoint", False)):
+        joints = [(kind, "j", "I", "part/J", {"theIzJz": "0.0"} if moved else {})]
+        loaded = assembly(tmp_path, {"I": np.eye(4)}, {"part": {"J": local}}, joints)
+        assert any("the pose of the file is open; closed" in note for note in loaded.exported.notes) == moved
+
+
+@pytest.mark.parametrize(
+    ("joints", "kind", "freedoms"),
+    [
+        (["SphericalJoint", "PerpendicularJoint"], "universal", 2),
+        (["SphericalJoint", "ParallelAxesJoint"], "revolute", 1),
+        (["CylindricalJoint", "NoRotationJoint"], "prismatic", 1),
+        (["PlanarJoint", "NoRotationJoint"], "rectangular", 2),
+        (["ParallelAxesJoint", "AngleJoint"], "schoenflies", 4),
+    ],
+)
+def test_joints_between_the_same_two_parts_are_the_one_that_they_amount_to(tmp_path, joints, kind, freedoms):
+    """Of two markers each, the second pair turned about x of the first where its axes are not parallel."""
+    other = {"PerpendicularJoint": turned(x=np.pi / 2), "AngleJoint": turned(x=0.7)}
+    world = {f"I{number}": np.eye(4) for number, _ in enumerate(joints)}
+    markers = {f"J{number}": pose(other.get(name, np.eye(3))) for number, name in enumerate(joints)}
+    sizes = {"AngleJoint": {"theIzJz": "0.7"}}
+    said = [
+        (name, f"j{number}", f"I{number}", f"part/J{number}", sizes.get(name, {})) for number, name in enumerate(joints)
+    ]
+    mechanism = assembly(tmp_path, world, {"part": markers}, said).mechanism()
+    assert [joint.kind for joint in mechanism.all_joints] == [kind]
+    assert mechanism.mobility().freedoms == freedoms
+
+
+@pytest.mark.parametrize(
     ("kind", "same"), [("SphSphJoint", "spherical"), ("RevCylJoint", "cylindrical"), ("RevRevJoint", "revolute")]
 )
 def test_a_distance_of_zero_is_the_joint_without_a_rod(tmp_path, kind, same):

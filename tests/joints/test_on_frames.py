@@ -90,6 +90,38 @@ def test_an_open_pose_is_closed():
 
 
 @pytest.mark.parametrize(
+    ("kind", "limits", "left"),
+    [
+        ("rectangular", {"x": (-1, 3), "y": (-1, 1)}, [(-3, 1), (0, 2)]),
+        ("cartesian", {"x": (-1, 3), "z": (0, 5)}, [(-3, 1), (-np.inf, np.inf), (-3, 2)]),
+        ("schoenflies", {"y": (0, 1), "phi": (0, 1)}, [(-np.inf, np.inf), (1, 2), (-np.inf, np.inf), (-0.3, 0.7)]),
+    ],
+)
+def test_limits_of_slides_count_from_where_the_frames_agree(kind, limits, left):
+    away = turned(0.3 if kind == "schoenflies" else 0.0)
+    away[:3, 3] = (2.0, -1.0, 0.0 if kind == "rectangular" else 3.0)
+    made = jk.joint_on_frames("P", "a", "b", kind=kind, frame1=np.eye(4), frame2=away, limits=limits)
+    np.testing.assert_allclose(made.limits, left, atol=1e-15)  # one difference each
+    np.testing.assert_allclose(made.frames_1, made.frames_2, atol=1e-15)  # closed
+
+
+def test_an_arm_is_closed_where_no_loop_has_to_be():
+    """The forearm is drawn 2 beside the pin of the elbow and tilted; it is put there, and the hand goes along."""
+    tilted = np.eye(4)
+    tilted[:3, :3], tilted[:3, 3] = Rotation.from_euler("x", 0.4).as_matrix(), (2.0, 0.0, 0.0)
+    frames = {"frame1": np.eye(4), "frame2": np.eye(4)}
+    joints = [
+        jk.joint_on_frames("elbow", "arm", "forearm", kind="revolute", frame1=np.eye(4), frame2=tilted),
+        jk.joint_on_frames("wrist", "forearm", "hand", kind="revolute", **frames),
+    ]
+    found = jk.Mechanism.build(fixed=["arm"], joints=joints).close()
+    assert found.closed
+    for part in ("forearm", "hand"):
+        np.testing.assert_allclose(found.places[part] @ tilted, np.eye(4), atol=1e-15)
+    assert all(joint.coincides for joint in found.mechanism.all_joints)
+
+
+@pytest.mark.parametrize(
     ("more", "message"),
     [
         ({"kind": "revolut"}, "no kind 'revolut'.*'revolute'"),
