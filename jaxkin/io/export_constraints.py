@@ -30,6 +30,11 @@ RANGES = ("distance", "angle")
 
 UNKNOWN = "UnknownConstraint"
 """Mates that the exporter has no name for: gears, locks, slots. Their own names may tell."""
+NO_LOCKS = ("gear", "cam", "path", "slot", "width", "screw", "rack", "symmetric", "linear", "universal", "hinge",
+            "belt")  # fmt: skip
+"""How the names begin of mates that the exporter has no name for, and that are no locks."""
+NO_GEOMETRY = ("", "unknown")
+"""What exporters write as the geometry of a side that has none: it is the whole part."""
 
 PARALLEL_MATES = 1e-5
 """Radians within which the features of a mate are parallel: exports round directions to nine digits, and systems solve
@@ -120,14 +125,13 @@ def _mate(
     if (parts := where.parts(*paths)) is None:
         notes.append(f"{text}: {where.why_not(paths)}; left out")
         return []
+    between = f"{text} between {parts[0]!r} and {parts[1]!r}"
     if each.kind.lower() in RANGES and any(word in _plain(each.name) for word in LIMITS):
-        notes.append(
-            f"{text} between {parts[0]!r} and {parts[1]!r} is a limit by its name: it holds nothing in between"
-        )
+        notes.append(f"{between} is a limit by its name: it holds nothing in between")
         return []
-    if each.kind.lower() in LOCKS or (each.kind == UNKNOWN and each.name.lower().startswith(LOCKS)):
-        if each.kind == UNKNOWN:
-            notes.append(f"{text} between {parts[0]!r} and {parts[1]!r} is taken for a lock, by its name")
+    if why := _unnamed_lock(each):
+        notes.append(f"{between} is taken for a lock, {why}")
+    if why or each.kind.lower() in LOCKS:
         held = Chain((SUBGROUP_JOINTS[0, 0][1],), np.eye(4)[None])
         return [Constraint(cleaned(each.name), parts, text, held, JointKind.FIXED)]
     features = [MateFeature.of(side.kind, side.point / metres, side.axis) for side in each.sides]
@@ -140,11 +144,29 @@ def _mate(
             "between the two (joints=) stands in place of all that the file says of them"
         )
         return []
+    if each.kind.lower() == "angle" and found[0].kind is JointKind.SCHOENFLIES:
+        notes.append(
+            f"{between} stands where its directions are parallel: they stay so, which takes two freedoms and not one"
+        )
     name, back = cleaned(each.name), (parts[1], parts[0])
     return [
         Constraint(name, back if one.swapped else parts, text, one.chain, one.kind, one.offset, one.tilt)
         for one in found
     ]
+
+
+def _unnamed_lock(each: ExportedMate) -> str:
+    """Say why a mate that the exporter has no name for is taken for a lock; empty where it is not.
+
+    The names of mates are in the language of the system. A lock is known in any: it alone is of two whole parts.
+    """
+    if each.kind != UNKNOWN:
+        return ""
+    name = each.name.lower()
+    if name.startswith(LOCKS):
+        return "by its name"
+    whole = all(side.axis is None and side.kind.lower() in NO_GEOMETRY for side in each.sides)
+    return "since it is of two parts as a whole" if whole and not name.startswith(NO_LOCKS) else ""
 
 
 def _plain(name: str) -> str:

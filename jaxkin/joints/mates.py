@@ -35,6 +35,10 @@ _FEATURES: dict[str, FeatureKind] = {
 """What a mate holds of the geometry that exporters name: of a cylinder or a circle its axis, of a sphere its centre."""
 _ROUND = ("cylinder", "cone", "sphere")
 
+EXTREMUM = 1e-3
+"""Radians from parallel within which an angle mate means 0 or 180 degrees: its cosine is 1 or -1 there within 5e-7,
+which systems that solve for the cosine stop at."""
+
 
 @dataclass(frozen=True, eq=False)
 class MateFeature:
@@ -92,7 +96,7 @@ def mate(tag: str, one: MateFeature, other: MateFeature, angle: float, length: f
     swapped = order.index(one.kind) > order.index(other.kind)
     first, second = (other, one) if swapped else (one, other)
     if tag in KEEP_ANGLE and "point" not in (one.kind, other.kind):
-        return (_angle_kept(tag, first, second, angle)._replace(swapped=swapped),)
+        return (_angle_kept(tag, first, second)._replace(swapped=swapped),)
     if tag not in COINCIDE + KEEP_DISTANCE:
         return ()
     if tag != "concentric" and (first.cone or second.cone):
@@ -239,16 +243,17 @@ _DISTANCES = {
 """Kinds of the two features, in this order -> their displacements where their distance stays."""
 
 
-def _angle_kept(tag: str, first: MateFeature, second: MateFeature, angle: float) -> MateSet:
+def _angle_kept(tag: str, first: MateFeature, second: MateFeature) -> MateSet:
     """Find the displacements that keep an angle: all translations, and the turns about both axes (one if parallel).
 
-    A line that is parallel to a plane is perpendicular to its normal.
+    A line that is parallel to a plane is perpendicular to its normal. Of an angle that stands where its directions are
+    parallel no other pose has the same cosine, so it keeps them parallel.
     """
     axis, tilt = second.axis, 0.0
-    aligned = _parallel(first, second, angle)
-    if tag != "angle":
-        aligned = (tag == "parallel") == (first.kind == second.kind)
-        sine = np.linalg.norm(np.cross(first.axis, axis)) if aligned else abs(float(first.axis @ axis))
+    is_angle = tag == "angle"
+    aligned = _parallel(first, second, EXTREMUM) if is_angle else (tag == "parallel") == (first.kind == second.kind)
+    if aligned or not is_angle:
+        sine = float(np.linalg.norm(np.cross(first.axis, axis)) if aligned else abs(first.axis @ axis))
         tilt = float(np.arcsin(min(1.0, sine)))
         axis = axis if aligned else _across(first.axis, axis)
     axis1, axis2 = frame(first.point, first.axis), frame(first.point, axis)

@@ -86,6 +86,29 @@ def test_mates_of_angles_are_one_joint_that_keeps_them(tmp_path, mates, kind, co
         )
 
 
+@pytest.mark.parametrize(
+    ("one", "other", "freedoms"),
+    [
+        (plane(Z), plane(Z), 4),
+        (plane(Z), plane((0, 0, -1)), 4),
+        (line(Z), line(Z), 4),
+        (plane(Z), line(Z), 4),  # of 90 degrees
+        (plane(Z), plane((5e-4, 0, 1)), 4),  # as solved for its cosine
+        (plane(Z), plane((3e-3, 0, 1)), 5),  # of 0.17 degrees
+        (plane(Z), line(X), 5),  # of 0 degrees, and yet no extremum
+    ],
+)
+def test_an_angle_at_its_extremum_keeps_its_directions_parallel(tmp_path, one, other, freedoms):
+    """Two equations, of which an angle alone has one: no other pose has a cosine of 1, or of -1."""
+    mechanism = mechanism_of(tmp_path, [("Angle", one, other)])
+    assert mechanism.mobility().freedoms == freedoms
+    assert mechanism.all_joints[0].kind == ("schoenflies" if freedoms == 4 else "constant angle")
+    told = [note for note in mechanism.notes if "takes two freedoms and not one" in note]
+    assert bool(told) == (freedoms == 4)
+    off = np.linalg.norm(np.cross(one[2], other[2])) if freedoms == 4 else 0.0
+    assert any("apart as exported" in note for note in mechanism.notes) == (off > 1e-5)
+
+
 def test_slides_of_a_table_run_along_its_mates(tmp_path):
     """x of the table is along the direction that the parallel mate keeps."""
     askew = np.array([0.6, 0.8, 0.0])

@@ -115,6 +115,30 @@ def test_mates_that_exporters_have_no_name_for_are_read_by_their_own(tmp_path):
         assert any(said in note for note in mechanism.notes)
 
 
+@pytest.mark.parametrize(
+    ("name", "geometry", "locks"),
+    [
+        ("Sperren1", "Unknown", True),
+        ("\u30ed\u30c3\u30af1", None, True),  # a lock in Japanese, between two instances
+        ("Sperren1", "plane", False),
+        ("Gear1", "Unknown", False),
+    ],
+)
+def test_a_lock_is_known_in_any_language_as_it_is_of_two_whole_parts(tmp_path, name, geometry, locks):
+    inside = "".join(
+        path if geometry is None else f'<ConstraintGeometry geomType="{geometry}">{path}{axis}</ConstraintGeometry>'
+        for path in (f"<InstancePath><Uid>{uid}</Uid></InstancePath>" for uid in ("base", "part"))
+        for axis in ("<Axis>0 0 1</Axis>" if geometry == "plane" else "",)
+    )
+    tree = instance("base", grounded="true") + instance("part")
+    mates = f'<UnknownConstraint name="{name}">{inside}</UnknownConstraint>'
+    mates += mate("Concentric", "pin", ("base", *LINE), ("part", *LINE))
+    mechanism = load(tmp_path, tree, mates=mates).mechanism()
+    assert (len(mechanism.bodies) == 1) == locks
+    said = "taken for a lock, since it is of two parts as a whole" if locks else "is not understood"
+    assert any(f"{name!r}" in note and said in note for note in mechanism.notes)
+
+
 def test_mates_with_planes_of_the_assembly_are_with_what_is_held(tmp_path):
     """Exporters name the assembly itself by its own identifier."""
     tree = instance("base", (1, 0, 0), grounded="true") + instance("slide")
