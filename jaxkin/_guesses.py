@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import sys
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Self
 
 from jaxkin._names import closest, listed
 
@@ -91,10 +91,23 @@ MAX_LETTERS = 60
 _HELD = ("Mechanism", "Motion", "Assembly")
 """What users hold: whose names may have been asked of another."""
 
+_MADE_BY = {
+    "Mechanism": 'jk.Mechanism.build(fixed=["ground"], joints=[...]) makes a mechanism of joints by hand',
+    "Assembly": 'jk.load("machine.step") reads an assembly',
+}
+"""What makes what users hold, for those who call its class with what that does not take."""
+
 
 class Guided:
     """What users hold: one line in place of all its numbers, and asked for a name that it has not, it says what to
     write instead."""
+
+    def __new__(cls, *given: object, **named: object) -> Self:
+        unknown = [name for name in named if name not in getattr(cls, "__dataclass_fields__", {})]
+        if cls.__name__ in _MADE_BY and (unknown or isinstance(next(iter(given), None), list | str)):
+            what = listed([repr(name) for name in unknown]) if unknown else type(given[0]).__name__
+            raise TypeError(f"the class {cls.__name__} itself takes no {what}: {_MADE_BY[cls.__name__]}")
+        return super().__new__(cls)
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} of {listed(tuple(getattr(self, 'parts', ())))}>"
@@ -156,6 +169,12 @@ def called(package: str) -> TypeError:
     holders = [held for held in _HELD if inspect.isfunction(getattr(getattr(sys.modules["jaxkin"], held), name, None))]
     instead = f"; did you mean {holders[0].lower()}.{name}(...)?" if holders else _instead(name, [])
     return TypeError(f"{package} is a package of modules, and no function{instead}")
+
+
+def no_function(owner: object, written: str) -> TypeError:
+    """Make the error for a result that is called as if it were a function; `written` is how it is asked for."""
+    names = ", ".join(_listed_names(type(owner)))
+    return TypeError(f"{written} is no function: write it without brackets; it has {names}")
 
 
 def _missing(owner: str, name: str, instead: Callable[[str], str]) -> AttributeError:

@@ -20,6 +20,10 @@ class Named(dict[str, Entry]):
         self.what = what
         """What an entry is called in the message: "joint"."""
 
+    def __call__(self, *names: Any, **_: Any) -> NoReturn:
+        name = names[0] if names else next(iter(self), "...")
+        raise TypeError(f"entries are by {self.what}, and asked for in square brackets: write [{name!r}], and no ()")
+
     def __missing__(self, name: Any) -> NoReturn:
         joint = str(name).rpartition(".")[0]
         if self.what == "joint" and joint in self:  # a coordinate, as drives, inputs and tables name it

@@ -88,6 +88,30 @@ def test_packages_that_are_called_as_functions_say_what_to_write(motion, name, i
     assert str(raised.value) == f"jaxkin.{name} is a package of modules, and no function{instead}"
 
 
+@pytest.mark.parametrize(
+    ("owner", "given", "named", "said"),
+    [
+        (jk.Mechanism, (), {"fixed": ["a"], "joints": []}, "no 'fixed', 'joints': jk.Mechanism.build(fixed="),
+        (jk.Mechanism, ([],), {}, "no list: jk.Mechanism.build(fixed="),
+        (jk.Assembly, ("machine.step",), {}, "no str: jk.load("),
+    ],
+)
+def test_who_makes_what_is_held_by_its_class_is_told_what_makes_it(motion, owner, given, named, said):
+    with pytest.raises(TypeError, match=re.escape(f"the class {owner.__name__} itself takes {said}")):
+        owner(*given, **named)
+    again = pickle.loads(pickle.dumps(motion.mechanism))
+    assert again.parts == copy.copy(motion.mechanism).parts == motion.mechanism.parts
+
+
+def test_what_is_no_function_is_asked_for_without_brackets(motion):
+    with pytest.raises(TypeError, match=r"mechanism\.structure is no function: .* without brackets; it has .*loops"):
+        motion.mechanism.structure()
+    with pytest.raises(TypeError, match=r"by joint, .* in square brackets: write \['B'\]"):
+        motion.mechanism.joints("B")
+    with pytest.raises(TypeError, match=r"by part, .* write \['coupler'\]"):
+        motion.transforms("coupler")
+
+
 @pytest.mark.parametrize("name", ["crank-ground", "Crank_Ground", "ground crank"])
 def test_a_joint_is_known_by_its_parts_in_either_order(name):
     mechanism = jk.load(jk_example()).mechanism(fixed=["ground"])

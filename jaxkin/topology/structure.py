@@ -11,14 +11,14 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import groupby
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
 
 import numpy as np
 from jaxtyping import Int
 
 from jaxkin._arguments import several
 from jaxkin._files import save_figure
-from jaxkin._guesses import Result
+from jaxkin._guesses import Result, no_function
 from jaxkin.topology.checks import check_chords, check_connected, check_letters, check_names, merged_name
 from jaxkin.topology.components import connected
 from jaxkin.topology.describe import describe
@@ -69,6 +69,9 @@ class Structure(Result):
     that `cycle_basis` finds, without a spanning tree."""
     coupled: tuple[tuple[str, ...], ...] = ()
     """For each coupling the names of the joints whose coordinates it ties, such as those of two gear wheels."""
+
+    def __call__(self, *_: object, **__: object) -> NoReturn:
+        raise no_function(self, "mechanism.structure")
 
     @cached_property
     def row_of(self) -> Mapping[str, str]:
