@@ -36,8 +36,8 @@ _FEATURES: dict[str, FeatureKind] = {
 _ROUND = ("cylinder", "cone", "sphere")
 
 EXTREMUM = 1e-3
-"""Radians from parallel within which an angle mate means 0 or 180 degrees: its cosine is 1 or -1 there within 5e-7,
-which systems that solve for the cosine stop at."""
+"""Radians from parallel within which an angle mate means 0 or 180 degrees: where mates are solved to a millionth, as in
+published files, and for the cosine of the angle, as much is left of it there."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,9 +87,9 @@ def mate(tag: str, one: MateFeature, other: MateFeature, angle: float, length: f
     a cylinder.
 
     What is to coincide, to be parallel or perpendicular is taken to be, as it stands on the first of the two parts;
-    distances and other angles are those of the assembled pose. Directions within `angle` (radians) are parallel;
-    features nearer to each other than `length` coincide. None are found, too, for a distance between features that are
-    not parallel, and for what touches a cone beside its axis.
+    distances and other angles are those of the assembled pose, but angles next to 0 and 180 degrees (`EXTREMUM`).
+    Directions within `angle` (radians) are parallel; features nearer to each other than `length` coincide. None are
+    found, too, for a distance between features that are not parallel, and for what touches a cone beside its axis.
     """
     tag = tag.lower()
     order: tuple[FeatureKind, ...] = ("plane", "line", "point")

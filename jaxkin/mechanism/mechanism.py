@@ -275,7 +275,7 @@ class Mechanism(Guided):
         return blocking_contacts(self)
 
     def close(self, *, hold: Iterable[str] = (), align: float | int | None = None) -> Reassembly:
-        """Close the loops without a drive, where the given pose is open, and place the joints anew there.
+        """Close loops, and joints in none, without a drive where the given pose is open; joints stand anew there.
 
         The result tells how far each part has been moved, of other assembly modes, and which loops cannot be closed;
         its `mechanism` is the re-assembled one, all lengths as they were. Coordinates in `hold` stay as they are given.

@@ -63,13 +63,13 @@ def test_joints_that_keep_directions_come_back_as_they_are(tmp_path, limits):
         jk.constant_angle("slope", "b", "c", axis1=(0, 3, 4), axis2=(1, 1, 1), point=(3, 2, 1)),
         jk.constant_angle("square", "c", "d", axis1=(0, 3, 4), axis2=(1, 0, 0), point=(3, 2, 1)),
     ]
-    mechanism = jk.Mechanism.build(fixed=[GROUND], joints=joints)
+    mechanism = replace(jk.Mechanism.build(fixed=[GROUND], joints=joints), motors=("hand.phi",))
     back = written(mechanism, tmp_path).mechanism()
     if limits and "x" in limits:
         assert back.joints["hand_x"].limits == ((-1.0, 1.0),) and "hand" not in back.joints
         return
     assert [joint.kind for joint in back.all_joints if joint.freedoms] == [joint.kind for joint in joints]
-    assert back.joints["hand"].limits == mechanism.joints["hand"].limits
+    assert back.joints["hand"].limits == mechanism.joints["hand"].limits and back.motors == mechanism.motors
     compare_moved(mechanism, back, single=False, metres=False)
 
 
