@@ -17,7 +17,7 @@ from jaxkin._files import check_file
 from jaxkin._names import nearest
 from jaxkin.geometry.inertial import Inertial
 from jaxkin.geometry.pose import Transform, is_rigid
-from jaxkin.io.marker_joints import ANGLES, CHAINS, KINDS, Marker, MarkerJoints
+from jaxkin.io.marker_joints import ANGLE, ANGLES, CHAINS, KINDS, Marker, MarkerJoints
 from jaxkin.io.marker_ties import GEAR, RACK, SCREW, TIES, MarkerTie, RigidGroups, add_tie
 from jaxkin.io.robot_inertials import inertial
 from jaxkin.io.robot_model import WORLD, RobotLink, RobotModel, numbers, placed
@@ -213,13 +213,13 @@ class _Reader:
             raise ValueError(f"{where}: expected one of {', '.join((*KINDS, *ANGLES, *CHAINS, *TIES, *NOT_KEPT))}")
 
     def _sizes(self, node: AsmtNode, names: Sequence[str]) -> dict[str, float]:
-        """Read the sizes of a joint: of a tie those that it must have, of others those that are there."""
+        """Read the sizes of a joint: of a tie and an angle those that it must have, of others those that are there."""
         where = f"{self.file}: {_called(node)}"
         said = {name: node.said(SIZES[name]) for name in names}
         return {
             name: float(numbers(text, 1, f"{where}: {SIZES[name]}")[0])
             for name, text in said.items()
-            if text or node.text in TIES
+            if text or node.text in TIES or (node.text == ANGLE and name == "angle")
         }
 
     def _ends(self, node: AsmtNode) -> tuple[Marker, Marker]:

@@ -98,15 +98,17 @@ class MarkerJoints:
         """Add a joint of `KINDS`, `ANGLES` or `CHAINS`, with its distance, offset or angle in `sizes`.
 
         `text` is what the file calls the joint. Raises ValueError for the axes of a universal joint that are not
-        perpendicular.
+        perpendicular, and for a name that another joint has.
         """
+        if name in self.joints:
+            raise ValueError(f"{self.file}: {text}: another joint is called {name!r}; every joint needs its own name")
         if one.link == other.link:
             self.notes.append(f"{self.file}: {text} is between two markers of {one.link!r}; left out")
             return
         if kind in AT_ZERO and not sizes.get("distance", 0.0):
             kind = AT_ZERO[kind]
         first = one.pose @ placed(np.eye(3), (0.0, 0.0, sizes.get("offset", 0.0)))
-        angle = sizes.get("angle", np.pi / 2)
+        angle = sizes["angle"] if kind == ANGLE else np.pi / 2
         if kind == ANGLE and abs(np.sin(angle)) < STRAIGHT:  # parallel, or opposite: two equations, and not one
             kind, second = "ParallelAxesJoint", other.pose @ HALF_TURNS[int(np.cos(angle) < 0)]
         else:

@@ -129,6 +129,19 @@ def test_an_angle_of_no_or_half_a_turn_takes_two_freedoms(tmp_path, angle):
     np.testing.assert_allclose(there[:, 2, 2], np.cos(angle), atol=1e-15)
 
 
+@pytest.mark.parametrize(
+    ("joints", "message"),
+    [
+        ([("AngleJoint", "j", "I", "part/J", {})], r"a\.asmt: AngleJoint 'j': theIzJz: expected 1 finite number"),
+        ([("RevoluteJoint", "j", "I", "part/J", {})] * 2, r"a\.asmt: RevoluteJoint 'j': another joint is called 'j'"),
+    ],
+)
+def test_joints_without_their_angle_and_of_one_name_are_refused(tmp_path, joints, message):
+    """The second joint of a name was taken in place of the first one, without a word."""
+    with pytest.raises(ValueError, match=message):
+        assembly(tmp_path, {"I": np.eye(4)}, {"part": {"J": np.eye(4)}}, joints)
+
+
 def test_axes_that_are_opposite_where_they_are_to_be_parallel_are_turned(tmp_path):
     """Unlike parallel axes, those at an angle of zero have a sense."""
     local = pose(turned(x=np.pi))
