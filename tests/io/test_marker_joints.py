@@ -5,6 +5,7 @@ import pytest
 
 import jaxkin as jk
 from jaxkin.geometry.pose import rotation
+from reference.mates import turned as by_vector
 
 RANDOM = np.random.default_rng(0)
 X, Y, Z = SAME = np.eye(3)
@@ -111,9 +112,8 @@ def test_what_a_joint_demands_of_its_markers_holds_however_it_moves(tmp_path, ki
 )  # fmt: skip
 def test_what_keeps_directions_only_is_one_joint_without_a_part_between(tmp_path, kind, found):
     local, sizes, *_ = CASES[kind]
-    mechanism = assembly(
-        tmp_path, {"I": np.eye(4)}, {"part": {"J": local}}, [(kind, "j", "I", "part/J", sizes)]
-    ).mechanism()
+    joints = [(kind, "j", "I", "part/J", sizes)]
+    mechanism = assembly(tmp_path, {"I": np.eye(4)}, {"part": {"J": local}}, joints).mechanism()
     assert mechanism.parts == ("world", "part") and [joint.kind for joint in mechanism.all_joints] == [found]
 
 
@@ -173,6 +173,29 @@ def test_joints_between_the_same_two_parts_are_the_one_that_they_amount_to(tmp_p
     mechanism = assembly(tmp_path, world, {"part": markers}, said).mechanism()
     assert [joint.kind for joint in mechanism.all_joints] == [kind]
     assert mechanism.mobility().freedoms == freedoms
+
+
+@pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.long)])
+def test_random_joints_of_two_parts_leave_the_freedoms_of_their_equations(tmp_path, seed):
+    """Six less the rank, by central differences (errors of 1e-10), and the spin of each rod; half along the axes."""
+    random = np.random.default_rng(seed)
+    for _ in range(8):
+        kinds = [str(kind) for kind in random.choice([*CASES], random.integers(1, 4))]
+        turns = np.where(random.random(len(kinds)) < 0.5, random.integers(0, 4, (3, len(kinds))) * np.pi / 2, 1.0)
+        ones = [pose(turned(*turn), random.uniform(-1, 1, 3)) for turn in turns.T]
+        ends = [one @ CASES[kind][0] for one, kind in zip(ones, kinds, strict=True)]
+
+        def left(twist, kinds=kinds, ones=ones, ends=ends):
+            there = np.linalg.inv(ones) @ pose(by_vector(twist[:3]), twist[3:]) @ ends
+            equations = [CASES[kind][2] for kind in kinds]
+            return np.concatenate([own(at[:3, :3], at[:3, 3]) for own, at in zip(equations, there, strict=True)])
+
+        slopes = np.array([(left(1e-5 * unit) - left(-1e-5 * unit)) / 2e-5 for unit in np.eye(6)])
+        world, part = ({f"M{k}": at for k, at in enumerate(side)} for side in (ones, ends))
+        said = [(kind, f"j{k}", f"M{k}", f"part/M{k}", CASES[kind][1]) for k, kind in enumerate(kinds)]
+        mechanism = assembly(tmp_path, world, {"part": part}, said).mechanism()
+        expected = 6 - np.linalg.matrix_rank(slopes, tol=1e-7) + kinds.count("SphSphJoint")
+        assert mechanism.mobility().freedoms == expected, kinds
 
 
 @pytest.mark.parametrize(
