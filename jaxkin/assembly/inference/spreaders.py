@@ -7,7 +7,7 @@ from typing import NamedTuple
 from jaxkin.assembly.inference.axes import MAX_INTERFERENCE, CommonAxis
 from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.fasteners import beside
-from jaxkin.assembly.inference.held import PRESSED
+from jaxkin.assembly.inference.holders import PRESSED
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import BodyPair, Known
 from jaxkin.assembly.inference.sleeves import FLUSH, SAME_FIT, is_round, is_round_about

@@ -1,8 +1,8 @@
-"""Stepper motors and linear bearings, known by their sizes; places and orders at random change nothing."""
+"""Motors and linear bearings, known by their sizes; places and orders at random change nothing."""
 
 import pytest
 
-from reference.round_parts import SEEDS, anywhere, assembly, block, owners, part, pin, ring
+from reference.round_parts import SEEDS, anywhere, assembly, block, kind_of, owners, part, pin, ring
 
 ON_CATALOGUE = {"scaled_at_random": False}
 """Sizes of a catalogue are not scaled."""
@@ -29,6 +29,31 @@ def test_a_plate_on_the_flange_of_a_stepper_motor_is_no_hub(seed):
     plate = part("plate", ring(2.5, 4.0, 2, 8), block((-30, 4, 2), (30, 30, 8)))
     mechanism = anywhere(assembly(motor, plate), seed, **ON_CATALOGUE).mechanism(fixed=["motor"])
     assert not any("stepper" in note for note in mechanism.notes)
+
+
+def servo(length, width, radius, reach):
+    """A servo of one solid whose shaft is as far from one end of its case as from its sides; tabs with holes."""
+    low, high = -width / 2, length - width / 2
+    case = block((low, -width / 2, -30), (high, width / 2, 0))
+    tabs = [block((x - 4, -width / 2, -10), (x + 4, width / 2, -8)) for x in (low - 4, high + 4)]
+    holes = [ring(1.1, 2.0, -10, -8, (x, 0)) for x in (low - 4, high + 4)]
+    return part("servo", case, *tabs, *holes, pin(radius, 0, reach))
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(
+    ("length", "width", "radius", "turns"),
+    [(40.3, 20.0, 2.95, True), (22.8, 12.2, 2.4, True), (60.0, 20.0, 2.95, False), (40.3, 20.0, 4.0, False)],
+)
+def test_the_horn_of_a_servo_turns_on_it_with_what_it_is_set_into(length, width, radius, turns, seed):
+    """The horn fits the shaft exactly, and the arm with play: it was tighter on the shaft, and held there."""
+    horn = part("horn", ring(radius, 4.5, 1, 6), ring(4.5, 9.0, 1, 3))
+    arm = part("arm", ring(4.55, 9.0, 3, 6), block((4.55, -4, 3), (60, 4, 6)))
+    drawn = anywhere(assembly(servo(length, width, radius, 5), horn, arm), seed, **ON_CATALOGUE)
+    mechanism = drawn.mechanism(fixed=["servo"])
+    body = owners(mechanism)
+    assert (body["horn"] == body["arm"] != body["servo"]) == turns
+    assert not turns or kind_of(mechanism, "horn", "servo") == "revolute"
 
 
 def rods_and_carriages(length):

@@ -1,0 +1,45 @@
+"""Which of several bodies holds a shaft or a screw; places, sizes and orders at random change nothing."""
+
+import pytest
+
+from reference.round_parts import SEEDS, anywhere, assembly, block, kind_of, owners, part, pin, ring
+
+
+def arm(name, bore, low, at, way):
+    """A flat arm that goes from a bore at the origin to one `at` along x or y, of the same width as both."""
+    end = (at, 0.0) if way == "x" else (0.0, at)
+    bar = ((bore, -4, low), (at - bore, 4, low + 5)) if way == "x" else ((-4, bore, low), (4, at - bore, low + 5))
+    return part(name, ring(bore, 9.0, low, low + 5), ring(bore, 9.0, low, low + 5, end), block(*bar))
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_shaft_across_belongs_to_the_arms_that_it_fits_exactly(seed):
+    """As in a scissor lift: what is beside these, and what is between them, has play on the shaft, and turns there.
+
+    It was held on one end, by an arm with play.
+    """
+    inner = [arm(f"inner {k}", 4.0, low, 80, "x") for k, low in enumerate((6, 84))]
+    outer = [arm(f"outer {k}", 4.1, low, 80, "y") for k, low in enumerate((0, 90))]
+    eye = part("rod", ring(4.1, 8.0, 40, 55), block((-4, -60, 40), (4, -8, 55)))
+    spreader = part("spreader", pin(4.0, 6, 89, (80, 0)))
+    drawn = assembly(*inner, *outer, eye, part("shaft", pin(4.0, 0, 95)), spreader)
+    mechanism = anywhere(drawn, seed).mechanism(fixed=["inner 0"])
+    body = owners(mechanism)
+    assert body["shaft"] == body["inner 0"]
+    for name in ("outer 0", "outer 1", "rod"):
+        assert kind_of(mechanism, name, "shaft") in ("revolute", "cylindrical")
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("fixed", ["plate", "link"])
+def test_a_screw_with_play_in_two_parts_belongs_to_the_fixed_one(fixed, seed):
+    """A spacer between them, a nut below: the link was taken to hold the screw, as its hole is longer."""
+    screw = part("screw", pin(3.0, 20, 23), pin(1.5, 0, 20))
+    nut = part("nut", ring(1.5, 3.0, 0, 2.5))
+    plate = part("plate", ring(1.6, 6.0, 2.5, 5.5), block((6, -30, 2.5), (60, 30, 5.5)))
+    spacer = part("spacer", ring(1.55, 3.0, 5.5, 15))
+    link = part("link", ring(1.6, 6.0, 15, 20), block((6, -5, 15), (60, 5, 20)))
+    mechanism = anywhere(assembly(screw, nut, plate, spacer, link), seed).mechanism(fixed=[fixed])
+    body = owners(mechanism)
+    assert body["screw"] == body["nut"] == body[fixed]
+    assert body["plate"] != body["link"]
