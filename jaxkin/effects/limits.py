@@ -15,7 +15,7 @@ from jaxtyping import Float
 
 from jaxkin._arguments import by_name, check_known, check_mechanism, several
 from jaxkin.effects.determined_drive import check_determined, home_of_drive
-from jaxkin.effects.limit_of_design import Extremum, limit_equation
+from jaxkin.effects.limit_of_design import limit_equation
 from jaxkin.effects.limit_search import (
     CoordinateRange,
     FoundLimit,
@@ -207,8 +207,7 @@ def _limit(
     moving, why = why_locked({index: joints[index] for index in loops.loop_group.joints}, curve, end.here)
     column = moving_column(curve, end.here, joints)
     joint, k = loops.columns[column]
-    extremum = Extremum(side, float(loops.units[column]))
-    equation = limit_equation(mechanism, driven, joints[joint].full_names[k], shown, extremum)
+    equation = limit_equation(mechanism, driven, joints[joint].full_names[k], shown, side)
     return Limit(at, end.kind, moving, f"{name} locks: {why}", shown, equation)
 
 

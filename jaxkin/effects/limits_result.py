@@ -42,7 +42,8 @@ class Limit(Result):
         It has derivatives by all numbers of the design, and works inside `jit`, `vmap` and `grad`, and so in losses and
         constraints of `jk.optimize`: `limit.of(motion.mechanism)`. The pose of the limit is led to the design in steps:
         the joints that lock, or the range that ends, stay the same; whether another limit comes first there,
-        `jk.limits` of the design tells. NaN where it is lost on the way, as where the drive makes full turns.
+        `jk.limits` of the design tells, and whether loops close that the drive does not move. NaN, with derivatives of
+        zero, where it is lost on the way, as where the drive makes full turns.
 
         Raises ValueError for kinds `FAR` and `LOST`, and for mechanisms with other joints.
         """

@@ -3,6 +3,8 @@
 A limit is right to rounding, and its derivative to rounding over the second derivative of the drive, which is 1 or so.
 """
 
+import warnings
+
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -51,6 +53,47 @@ def test_second_derivatives():
     start = jnp.array([*DRAWN.values()])
     found, expected = (jax.jit(jax.jacfwd(jax.grad(each)))(start) for each in (upper_of_fourbar(), stretched))
     np.testing.assert_allclose(found, expected, rtol=1e-7, atol=1e-10)
+
+
+@pytest.mark.long
+def test_third_derivatives():
+    """Those of the augmented system are right to any order: here by the coupler."""
+
+    def of_coupler(function):
+        return lambda coupler: function(jnp.array([100.0, 90.0, coupler, 60.0]))
+
+    found, expected = (
+        jax.jit(jax.jacfwd(jax.jacfwd(jax.jacfwd(of_coupler(each)))))(61.0) for each in (upper_of_fourbar(), stretched)
+    )
+    np.testing.assert_allclose(found, expected, rtol=1e-7)
+
+
+@pytest.mark.long
+def test_many_designs_at_once():
+    """A design without the limit is NaN, with a gradient of zero, and leaves the others as they are."""
+    couplers = jnp.array([60.0, 200.0, 75.0])
+    designs = jnp.array([100.0, 90.0, 0.0, 60.0]) + couplers[:, None] * jnp.array([0.0, 0.0, 1.0, 0.0])
+    values, slopes = jax.jit(jax.vmap(jax.value_and_grad(upper_of_fourbar())))(designs)
+    expected, exact = jax.vmap(jax.value_and_grad(stretched))(designs[::2])
+    np.testing.assert_allclose(values[::2], expected, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(slopes[::2], exact, rtol=1e-8)
+    assert np.isnan(values[1]) and not np.any(slopes[1])
+
+
+@pytest.mark.long
+def test_single_precision():
+    """Value and slope to what rounding leaves, a few parts in a million of a radian."""
+    with jax.enable_x64(False), warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)  # that it is in float32
+        function = jax.value_and_grad(upper_of_fourbar())
+        for change in ([0, 0, 0, 0], [10, -10, 20, 5], [-5, 0, -40, 0]):
+            lengths = np.array([*DRAWN.values()]) + change
+            value, slope = function(jnp.asarray(lengths))
+            assert value.dtype == slope.dtype == np.float32
+            with jax.enable_x64(True):
+                expected, exact = jax.value_and_grad(stretched)(jnp.asarray(lengths))
+            np.testing.assert_allclose(value, expected, rtol=0, atol=4e-6)
+            np.testing.assert_allclose(slope, exact, rtol=2e-5)
 
 
 @pytest.mark.long

@@ -10,6 +10,7 @@ others must not have:
 | `correctors.levenberg_marquardt` | vanishes with the residual | safe from afar and at singular poses |
 | `correctors.least_residual` | cutoff at the play | loops do not close: a damped step would follow the play |
 | `correctors.nearest_pose` | none | to the nearest of all closed poses: also along these, and with weights |
+| `correctors.turning_point` | none | one pose, whose unknowns hold the driven coordinate: where its rate is zero |
 | `linkage.host_closure` | as `levenberg_marquardt` | numpy, one pose: analyses before a sweep compile nothing |
 | `mobility.consistency` | as `least_residual` | the same in numpy, with a cutoff from the noise of the frames |
 | `dimensions.placement` | its own | unknowns are positions of features, not coordinates of joints |

@@ -27,18 +27,22 @@ forty numbers as trees, or to split an operation among threads takes longer than
 for work occupy the core that another shard needs. Several cores work on shards of their own instead (`run_on_cores`).
 """
 
+FEW_OPTIMISATIONS = {"xla_backend_optimization_level": 0}
+"""What is compiled once for one pose runs in a millisecond, optimised or not: LLVM then takes 0.6 s in place of 1.5 for
+the limit of a four-bar."""
+
 _traces = 0
 """Number of programs that find poses and were traced in this process."""
 
 
-def whole_program(function: Callable, static: tuple[int, ...]) -> Callable:
+def whole_program(function: Callable, static: tuple[int, ...], *, one_pose: bool = False) -> Callable:
     """Compile a function of arrays with the options of the solver, which are those of whole programs.
 
     `static` are the places of its arguments that are hashed, and not arrays. Where numbers are traced, the function is
-    part of another program, and compiled as that is.
+    part of another program, and compiled as that is. What is computed of `one_pose` only has `FEW_OPTIMISATIONS`.
     """
     part = jax.jit(function, static_argnums=static)
-    whole = cache(lambda: jax.jit(function, static_argnums=static, **jit_options()))
+    whole = cache(lambda: jax.jit(function, static_argnums=static, **jit_options(one_pose)))
 
     @wraps(function)
     def call(*given):
@@ -48,9 +52,9 @@ def whole_program(function: Callable, static: tuple[int, ...]) -> Callable:
 
 
 @cache
-def jit_options() -> dict[str, Any]:
+def jit_options(one_pose: bool = False) -> dict[str, Any]:
     """Return the compiler options as an argument of `jax.jit`; empty where this version of JAX knows none of them."""
-    known = known_options(COMPILER_OPTIONS)
+    known = known_options(COMPILER_OPTIONS | (FEW_OPTIMISATIONS if one_pose else {}))
     return {"compiler_options": known} if known else {}
 
 
