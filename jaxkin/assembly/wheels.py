@@ -9,6 +9,7 @@ import numpy as np
 
 from jaxkin.geometry.outline import roundness
 from jaxkin.joints.kinds import JointKind
+from jaxkin.mobility.open_loops import left_open
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
@@ -18,7 +19,12 @@ ROUND = 0.95
 
 
 def wheels_last(mechanism: Mechanism) -> tuple[str, ...]:
-    """List coordinates that determine the motion together, as the mobility does, those of wheels last."""
+    """List coordinates that determine the motion together, as the mobility does, those of wheels last.
+
+    None where nothing can move, or where the loops cannot be closed.
+    """
+    if left_open(mechanism.linkage) is not None:
+        return ()
     return tuple(sorted(mechanism.mobility().drivable, key=wheels_of(mechanism).__contains__))
 
 

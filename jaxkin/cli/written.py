@@ -30,6 +30,7 @@ def draw(assembly: Assembly, contacts: Contacts, mechanism: Mechanism | None, pn
 
 def write_page(study: Study, tried: Sequence[Proposal], page: Path) -> None:
     """Write the report on a mechanism, with what it needs to move and what else was tried to be fixed."""
+    from jaxkin.assembly.wheels import wheels_last
     from jaxkin.mechanism.describe import describe_mobility
     from jaxkin.view.inspection_page import inspection_page
 
@@ -37,22 +38,13 @@ def write_page(study: Study, tried: Sequence[Proposal], page: Path) -> None:
         step(f"writing {page.name}")
         mechanism = study.mechanism
         missing = ["\n".join(describe_mobility(mechanism))]
-        if not study.ranges and (drivable := _drivable(study)):
+        if not study.ranges and (drivable := wheels_last(mechanism)):
             ranges = "a range for this" if len(drivable) == 1 else "one range for each of these"
             missing.append(f"To move it, give {ranges}: {listed(drivable)}")
         if tried:
             missing.append(f"No part was named to be fixed. The best of {len(tried)} choices: {tried[0]}")
         source = study.assembly.source if study.assembly else study.source
         inspection_page(mechanism, page, source=source, missing=missing, tried=[*map(str, tried)])
-
-
-def _drivable(study: Study) -> tuple[str, ...]:
-    """Find coordinates that determine the motion together; none where nothing can move, or where loops are open."""
-    from jaxkin.assembly.wheels import wheels_last
-    from jaxkin.mobility.open_loops import opening
-
-    mechanism = study.mechanism
-    return () if opening(mechanism.linkage, mechanism.unit) is not None else wheels_last(mechanism)
 
 
 def write_refusal(assembly: Assembly, contacts: Contacts, page: Path, refusal: ValueError) -> None:

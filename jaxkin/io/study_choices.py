@@ -22,7 +22,7 @@ from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.pairs import JOINTS_BY_HAND, fixed
 from jaxkin.mobility.doubts import doubts
-from jaxkin.mobility.open_loops import opening
+from jaxkin.mobility.open_loops import left_open
 
 if TYPE_CHECKING:
     from jaxkin.assembly.proposals import Proposal
@@ -88,7 +88,7 @@ def _other_fixed(tried: _Tried, proposals: Sequence[Proposal]) -> list[str]:
         if set(each.fixed) == set(tried.fixed) or each.ignore:  # the joints of a study are written out
             continue
         mechanism = tried.with_fixed(each.fixed)
-        driven = () if opening(mechanism.linkage, mechanism.unit) is not None else mechanism.mobility().drivable
+        driven = mechanism.mobility().drivable if left_open(mechanism.linkage) is None else ()
         if driven and can_drive(mechanism, driven):
             choice = {"fixed": each.fixed, "drive": small_ranges(mechanism, driven)}
             lines.append(f"# instead = {toml(choice)}  # {_told(mechanism)}")
@@ -164,8 +164,8 @@ def _is_found(joint: Joint) -> bool:
 
 def _told(mechanism: Mechanism) -> str:
     """Tell what a choice makes of the mechanism."""
-    if opening(mechanism.linkage, mechanism.unit) is not None:
-        return "loops that are open as drawn"
+    if left_open(mechanism.linkage) is not None:
+        return "loops that cannot be closed"
     found = mechanism.mobility()
     count = "one freedom" if found.useful == 1 else f"{found.useful} freedoms"
     return f"{count} of use in {counted(len(mechanism.bodies), 'body')}"

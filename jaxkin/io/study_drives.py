@@ -14,7 +14,7 @@ from jaxkin.linkage.coordinates import coordinates
 from jaxkin.mechanism.drive_plan import plan_drive
 from jaxkin.mobility.loop_freedoms import loop_freedoms
 from jaxkin.mobility.mobility import names
-from jaxkin.mobility.open_loops import opening
+from jaxkin.mobility.open_loops import left_open
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
@@ -31,7 +31,7 @@ _STILL = 1e-9
 
 def can_drive(mechanism: Mechanism, driven: Sequence[str]) -> bool:
     """Tell whether the loops can follow a drive of these coordinates."""
-    if opening(mechanism.linkage, mechanism.unit) is not None:
+    if left_open(mechanism.linkage) is not None:
         return False
     try:
         return plan_drive(mechanism.linkage, tuple(driven)).infeasible is None
@@ -54,7 +54,7 @@ def small_drive(mechanism: Mechanism) -> dict[str, str]:
     by far more than itself: then the one that does so least. Wheels, which move nothing else, come last and stay as
     they are, and so does what is locked.
     """
-    if opening(mechanism.linkage, mechanism.unit) is not None:
+    if left_open(mechanism.linkage) is not None:
         return {}
     found = mechanism.mobility()
     driven = _motors(mechanism, len(found.drivable)) or found.drivable

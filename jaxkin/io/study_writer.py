@@ -29,7 +29,7 @@ from jaxkin.joints.evidence import BY_HAND, Evidence
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.pairs import JOINTS_BY_HAND
-from jaxkin.mobility.open_loops import opening
+from jaxkin.mobility.open_loops import left_open
 
 if TYPE_CHECKING:
     from jaxkin.assembly.proposals import Proposal
@@ -226,8 +226,8 @@ def _pin(joint: Joint) -> Transform:
 def _drive(mechanism: Mechanism, drive: Mapping[str, str] | None) -> list[str]:
     if drive:
         return ["", "[drive]", *(f"{toml_key(name)} = {toml(values)}" for name, values in drive.items())]
-    if (gap := opening(mechanism.linkage, mechanism.unit)) is not None:
-        return ["", *comment(f"nothing can drive: not closed in this pose: {gap}")]
+    if (gap := left_open(mechanism.linkage, mechanism.unit)) is not None:
+        return ["", *comment(f"nothing can drive: the loops cannot be closed: where they are the least open, {gap}")]
     drivable = wheels_last(mechanism)
     if not drivable:
         return ["", *comment(f"nothing can drive: {mechanism.mobility()}")]

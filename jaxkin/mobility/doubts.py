@@ -12,7 +12,7 @@ from jaxkin.linkage.first_order import without
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.loop_freedoms import loop_freedoms
 from jaxkin.mobility.mobility import moving_columns, moving_coordinates, names
-from jaxkin.mobility.open_loops import opening
+from jaxkin.mobility.open_loops import left_open
 
 _COORDINATES = {row.subgroup_joint: row.coordinates for row in MOVEMENTS.values() if row.subgroup_joint}
 
@@ -21,7 +21,7 @@ def doubts(linkage: Linkage) -> list[tuple[Joint, Doubt]]:
     """Find the joints in doubt, with what they may be, the least certain first; but for those whose other reading only
     takes motions that are idle, or that loops stop, or locks a loop that moves, as that of a piston would."""
     found = [(joint, joint.evidence.doubt) for joint in linkage.joints if joint.evidence and joint.evidence.doubt]
-    if found and opening(linkage) is None:
+    if found and left_open(linkage) is None:
         useful = moving_coordinates(linkage)
         found = [(joint, doubt) for joint, doubt in found if _is_open(linkage, joint, doubt.kind, useful)]
     return sorted(found, key=lambda each: each[1].seen.share)

@@ -64,17 +64,27 @@ def opening(linkage: Linkage, unit: str = "") -> Opening | None:
     return worst
 
 
-def check_assembles(linkage: Linkage, unit: str, what: str, call: str) -> None:
-    """Raise ValueError if loops cannot be closed from the given pose, with the size of what stays open.
+def left_open(linkage: Linkage, unit: str = "") -> Opening | None:
+    """Find the loop that stays open the most where the loops are closed from the given pose.
 
-    `what` names the result that cannot be computed then, and `call` is the call that computes it, with `{}` in place of
-    the mechanism. Numbers that JAX traces are not looked at.
+    None where all close, so that what the mechanism can do is known, in the given pose or with new lengths beside it;
+    and where JAX traces the linkage, whose numbers cannot be looked at.
     """
     still_open = [] if traced(linkage) else [each for each in loop_freedoms(linkage) if not each.closes]
     if not still_open:
-        return
+        return None
     worst = max(still_open, key=lambda each: each.home.travel.residual_norm)
-    found = tell_opening(linkage, unit, closed_loops(linkage, worst.loop_group), worst.home.q)
+    return tell_opening(linkage, unit, closed_loops(linkage, worst.loop_group), worst.home.q)
+
+
+def check_assembles(linkage: Linkage, unit: str, what: str, call: str) -> None:
+    """Raise ValueError if loops cannot be closed from the given pose, with the size of what is `left_open`.
+
+    `what` names the result that cannot be computed then, and `call` is the call that computes it, with `{}` in place of
+    the mechanism.
+    """
+    if (found := left_open(linkage, unit)) is None:
+        return
     raise ValueError(
         f"{what} cannot be told of a mechanism that cannot be assembled: where its loops are the least open, {found}; "
         "give it lengths with which they close, as with_lengths does, or let mechanism.close() try from other poses: "

@@ -1,4 +1,4 @@
-"""Limits, modes, workspaces, freedoms and plans of mechanisms with new lengths: those of mechanisms built with these.
+"""What is told of mechanisms with new lengths, such as limits, modes and plans: that of mechanisms built with these.
 
 The assembled pose is open then. Displacements count from it all the same, as those of a sweep do: the crank of the
 mechanism that is built anew stands at the same angle, and the joints behind it stand elsewhere.
@@ -8,6 +8,9 @@ import numpy as np
 import pytest
 
 import jaxkin as jk
+from jaxkin.assembly.wheels import wheels_last
+from jaxkin.io.study_drives import can_drive
+from jaxkin.mobility.open_loops import left_open, opening
 from reference import planar
 from reference.catalogue import fivebar, stephenson, watt
 from reference.mechanisms import planar_fourbar, rssr_linkage, slider_crank
@@ -111,6 +114,29 @@ def test_other_linkages_as_when_they_are_assembled_in_the_closed_pose(make, shar
     size = 1.0 if coordinate == "phi" else 100.0
     shifted = np.array(expected.range) + closed.coordinates[joint][0]
     np.testing.assert_allclose(found.range, shifted, rtol=0, atol=1e-10 * size)
+
+
+def test_inverse_is_driven_by_the_crank_alone():
+    """As the mechanism that is built anew: a pose of the sweep is found again, by the displacement of its crank."""
+    new, _ = changed(1.0, coupler=70.0)
+    motion = new.sweep({"A": [0.25]})
+    found = jk.inverse(new, {jk.point("coupler", (60.0, 80.0, 0.0)): motion.points("coupler", (60.0, 80.0, 0.0))})
+    assert [*found.motion.inputs] == ["A.phi"] == [*new.mobility().drivable]
+    # errors up to 1e-9 of the size are reached
+    np.testing.assert_allclose(found.motion.inputs["A.phi"], 0.25, atol=1e-8)
+
+
+def test_what_drives_is_known_where_the_loops_can_be_closed():
+    """As the command line and studies ask: with a coupler longer than all other bars nothing closes, or can drive."""
+    new, built = changed(1.0, coupler=70.0)
+    assert opening(new.linkage) is not None and left_open(new.linkage) is None
+    assert wheels_last(new) == wheels_last(built) == ("A.phi",) and can_drive(new, ["D.phi"])
+    gone = planar_fourbar(1.0).with_lengths({BARS["coupler"]: 300.0})
+    assert "the loop over D, C, B, A is open by" in str(left_open(gone.linkage))
+    assert wheels_last(gone) == () and not can_drive(gone, ["A.phi"])
+    # all coordinates are inputs then, and no pose closes
+    found = jk.inverse(gone, {jk.point("crank", (0.0, 0.0, 0.0)): np.zeros((1, 3))})
+    assert len(found.motion.inputs) == 4 and not found.motion.closed.any()
 
 
 @pytest.mark.long

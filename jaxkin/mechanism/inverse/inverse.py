@@ -19,7 +19,7 @@ from jaxkin.mechanism.inverse.problem import InverseProblem
 from jaxkin.mechanism.inverse.solution import CLOSED, REACHED, InversePoses, from_assembled, from_random, from_unlimited
 from jaxkin.mechanism.joint_limits import with_limited
 from jaxkin.mechanism.motion import Motion
-from jaxkin.mobility.open_loops import opening
+from jaxkin.mobility.open_loops import left_open
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import Status
 
@@ -165,8 +165,8 @@ def _problem(
 
 
 def _drivable(mechanism: Mechanism) -> Sequence[str]:
-    """Find the coordinates that determine the motion together, or all where the assembled pose is open."""
-    if opening(mechanism.linkage, mechanism.unit) is None:
+    """Find the coordinates that determine the motion together, or all where the loops cannot be closed."""
+    if left_open(mechanism.linkage) is None:
         return mechanism.mobility().drivable
     return [name for joint in mechanism.all_joints for name in joint.full_names]
 
