@@ -50,13 +50,17 @@ def minimise_constrained(
     own_root = found.root[before:, before:]
     absent = jnp.zeros_like(slope[:before])
 
+    def of_vanishing(y: Vector) -> Vector:
+        """Project on the combinations of equations that vanish, as they are found."""
+        return column_sums(found.vanishing, row_sums(found.vanishing, y))
+
     def vanishing(y: Vector) -> Vector:
         """Compute D y, whose derivative is that of the projector, which changes with E."""
-        least = column_sums(found.vanishing, row_sums(found.vanishing, y))
-        inside = row_sums(equations, column_sums(own_root, column_sums(found.rows, row_sums(found.made_by, y))))
-        inside = column_sums(found.vanishing, row_sums(found.vanishing, inside))
-        across = row_sums(own_root, column_sums(equations, least))
-        return least - inside - column_sums(found.made_by, row_sums(found.rows, across))
+        least = of_vanishing(y)
+        made = row_sums(found.made_by, y - least)
+        inside = of_vanishing(row_sums(equations, column_sums(own_root, column_sums(found.rows, made))))
+        across = column_sums(found.made_by, row_sums(found.rows, row_sums(own_root, column_sums(equations, least))))
+        return least - inside - (across - of_vanishing(across))
 
     def system(given: Unknowns) -> Unknowns:
         z, y = given[:count], given[count:]
@@ -66,11 +70,12 @@ def minimise_constrained(
     def solve(_: object, given: Unknowns) -> Unknowns:
         a, b = given[:count], given[count:]
         free = row_sums(found.root, a)
-        missing = row_sums(found.made_by, row_sums(found.whitened, free[before:]) - b)
+        missing = row_sums(found.whitened, free[before:]) - b
+        missing = row_sums(found.made_by, missing - of_vanishing(missing))
         z = column_sums(found.root, free - jnp.concatenate([absent, column_sums(found.rows, missing)]))
         left = row_sums(own_root, (a - row_sums(lax.stop_gradient(matrix), z))[before:])
         y = column_sums(found.made_by, row_sums(found.rows, left))
-        return jnp.concatenate([z, y - column_sums(found.vanishing, row_sums(found.vanishing, b))])
+        return jnp.concatenate([z, y - of_vanishing(y + b)])
 
     return lax.custom_linear_solve(system, jnp.concatenate([slope, right]), solve, symmetric=True)[:count]
 

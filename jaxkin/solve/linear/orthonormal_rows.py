@@ -2,7 +2,8 @@
 
 By the modified method of Gram and Schmidt, the largest of the rows that are left after the ones before in turn; what is
 done to the rows A is done to a unit matrix beside them. So A becomes Q = T A, whose rows are orthonormal, and dependent
-rows leave the combinations N of rows that vanish, N A = 0. Errors grow with the condition of A, and not with its
+rows leave the combinations N of rows that vanish, N A = 0. To take these out of T would be a product of matrices; out
+of what T multiplies it is one of a matrix and a vector. Errors grow with the condition of A, and not with its
 square, as they do by way of A A^T.
 """
 
@@ -37,7 +38,7 @@ class OrthonormalRows(NamedTuple):
     rows: Matrix
     """Q = T A. Zero in place of a dependent row."""
     made_by: Float[Array, "rows rows poses"]
-    """T. Its rows are orthogonal to those of N, so that Q^T T is the pseudoinverse of A."""
+    """T. The pseudoinverse of A is Q^T T (1 - N^T N)."""
     vanishing: Float[Array, "rows rows poses"]
     """N, orthonormal; zero in place of an independent row."""
 
@@ -55,18 +56,18 @@ def orthonormal_rows(matrix: Matrix) -> OrthonormalRows:
     rounding = float(jnp.finfo(matrix.dtype).eps)
     least = rounding ** (2 * NEGLIGIBLE) * largest
     if len(matrix) <= MAX_ROWS_IN_TURN:
-        return _in_turn(matrix, least, largest_first=True)
+        return _largest_first(matrix, least)
     found = _halved(matrix, least)
     large = jnp.max(found.made_by**2, axis=(0, 1)) * largest > rounding ** (-2 * WEAK)
-    found = lax.cond(jnp.any(large), lambda: _in_turn(matrix, least, largest_first=True), lambda: found)
-    # halves do not make each other's combinations orthonormal, which few mechanisms have
+    found = lax.cond(jnp.any(large), lambda: _largest_first(matrix, least), lambda: found)
+    # combinations that vanish, which few mechanisms have, are independent, but not orthonormal yet
     return lax.cond(jnp.any(found.vanishing != 0), _with_orthonormal_combinations, lambda found: found, found)
 
 
 def _halved(matrix: Matrix, least: Float[Array, " poses"]) -> OrthonormalRows:
     """Make the upper half of the rows orthonormal, then what the others have besides."""
     if len(matrix) <= MAX_ROWS_IN_TURN:
-        return _in_turn(matrix, least, largest_first=False)
+        return _in_order(matrix, least)
     half = len(matrix) // 2
     upper = _halved(matrix[:half], least)
     along = row_products(matrix[half:], upper.rows)
@@ -86,29 +87,67 @@ def _halved(matrix: Matrix, least: Float[Array, " poses"]) -> OrthonormalRows:
 
 
 def _with_orthonormal_combinations(found: OrthonormalRows) -> OrthonormalRows:
-    vanishing = _halved(found.vanishing, jnp.zeros(found.rows.shape[-1])).rows
-    made_by = found.made_by - product(row_products(found.made_by, vanishing), vanishing)
-    return OrthonormalRows(found.rows, made_by, vanishing)
+    return found._replace(vanishing=_independent(found.vanishing))
 
 
-def _in_turn(matrix: Matrix, least: Float[Array, " poses"], largest_first: bool) -> OrthonormalRows:
+def _independent(matrix: Matrix) -> Matrix:
+    """Make independent rows orthonormal, the upper half first; rows of zeros stay so."""
+    if len(matrix) <= MAX_ROWS_IN_TURN:
+        return lax.fori_loop(0, len(matrix), _one_in_turn, matrix)
+    half = len(matrix) // 2
+    upper = _independent(matrix[:half])
+    along = row_products(matrix[half:], upper)
+    return jnp.concatenate([upper, _independent(matrix[half:] - product(along, upper))])
+
+
+def _one_in_turn(number: Any, each: Matrix) -> Matrix:
+    """Normalise one row, and make those behind it orthogonal to it."""
+    own = lax.dynamic_index_in_dim(each, number, keepdims=False)
+    square = jnp.sum(own * own, axis=0)
+    own = own * (jnp.where(square > 0, 1.0, 0.0) / jnp.sqrt(jnp.where(square > 0, square, 1.0)))
+    place = jnp.arange(len(each))[:, None]
+    along = jnp.where(place > number, jnp.sum(each * own, axis=1), 0.0)
+    return jnp.where((place == number)[:, None], own, each - along[:, None] * own)
+
+
+def _in_order(matrix: Matrix, least: Float[Array, " poses"]) -> OrthonormalRows:
     """Make one row after the other orthonormal; a row whose square is not above `least` depends on those before.
 
-    They are taken in their order, or in each pose the largest of those that are left after the ones before.
+    The combinations that vanish are as they are found, independent of each other.
     """
+    count, columns, poses = matrix.shape
+    unit = jnp.broadcast_to(jnp.eye(count, dtype=matrix.dtype)[..., None], (count, count, poses))
+    place = jnp.arange(count)[:, None]
+
+    def step(number: Any, given: tuple[Array, Array]) -> tuple[Array, Array]:
+        each, kept = given
+        own = lax.dynamic_index_in_dim(each, number, keepdims=False)
+        square = jnp.sum(own[:columns] ** 2, axis=0)
+        stays = square > least
+        own = own * (jnp.where(stays, 1.0, 0.0) / jnp.sqrt(jnp.where(stays, square, 1.0)))
+        along = jnp.where(place > number, jnp.sum(each[:, :columns] * own[:columns], axis=1), 0.0)
+        here = (place == number) & stays
+        return jnp.where(here[:, None], own, each - along[:, None] * own), kept | here
+
+    begun = jnp.concatenate([matrix, unit], axis=1), jnp.zeros((count, poses), bool)
+    each, kept = lax.fori_loop(0, count, step, begun)
+    kept = kept[:, None]
+    rows, made_by = each[:, :columns], each[:, columns:]
+    return OrthonormalRows(*(jnp.where(kept, found, 0.0) for found in (rows, made_by)), jnp.where(kept, 0.0, made_by))
+
+
+def _largest_first(matrix: Matrix, least: Float[Array, " poses"]) -> OrthonormalRows:
+    """Make rows orthonormal, in each pose the largest of those that are left after the ones before in turn; a row whose
+    square is not above `least` depends on those before."""
     count, columns, poses = matrix.shape
     unit = jnp.broadcast_to(jnp.eye(count, dtype=matrix.dtype)[..., None], (count, count, poses))
     beside = jnp.arange(columns + count) >= columns
 
-    def step(number: Any, given: tuple[Array, Array, Array]) -> tuple[Array, Array, Array]:
+    def step(_: Any, given: tuple[Array, Array, Array]) -> tuple[Array, Array, Array]:
         each, kept, left = given
-        if largest_first:
-            squares = jnp.where(left, jnp.sum(each[:, :columns] ** 2, axis=1), -1.0)
-            here = jnp.arange(count)[:, None] == jnp.argmax(squares, axis=0)
-            own = jnp.sum(jnp.where(here[:, None], each, 0.0), axis=0)
-        else:
-            here = (jnp.arange(count) == number)[:, None]
-            own = lax.dynamic_index_in_dim(each, number, keepdims=False)
+        squares = jnp.where(left, jnp.sum(each[:, :columns] ** 2, axis=1), -1.0)
+        here = jnp.arange(count)[:, None] == jnp.argmax(squares, axis=0)
+        own = jnp.sum(jnp.where(here[:, None], each, 0.0), axis=0)
         stays = jnp.sum(own[:columns] ** 2, axis=0) > least
         # a dependent row is a combination of rows that vanishes: these are made orthonormal by themselves
         lead = jnp.where(beside[:, None] ^ stays, own, 0.0)
