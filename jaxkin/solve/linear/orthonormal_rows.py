@@ -133,7 +133,7 @@ def _in_order(matrix: Matrix, least: Float[Array, " poses"]) -> OrthonormalRows:
     each, kept = lax.fori_loop(0, count, step, begun)
     kept = kept[:, None]
     rows, made_by = each[:, :columns], each[:, columns:]
-    return OrthonormalRows(*(jnp.where(kept, found, 0.0) for found in (rows, made_by)), jnp.where(kept, 0.0, made_by))
+    return OrthonormalRows(jnp.where(kept, rows, 0.0), jnp.where(kept, made_by, 0.0), jnp.where(kept, 0.0, made_by))
 
 
 def _largest_first(matrix: Matrix, least: Float[Array, " poses"]) -> OrthonormalRows:
