@@ -33,6 +33,7 @@ from drawings import mown as mown
 from drawings import office as office
 from drawings import operated as operated
 from drawings import outdoor as outdoor
+from drawings import paralleled as paralleled
 from drawings import pedalled as pedalled
 from drawings import pinched as pinched
 from drawings import pivoted as pivoted
@@ -45,6 +46,7 @@ from drawings import road as road
 from drawings import robotics as robotics
 from drawings import rolled as rolled
 from drawings import rolling as rolling
+from drawings import schooled as schooled
 from drawings import sharpened as sharpened
 from drawings import signalled as signalled
 from drawings import spun as spun
