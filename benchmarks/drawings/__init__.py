@@ -40,6 +40,7 @@ from drawings import pivoted as pivoted
 from drawings import powered as powered
 from drawings import pressed as pressed
 from drawings import pumped as pumped
+from drawings import raced as raced
 from drawings import reciprocating as reciprocating
 from drawings import reeled as reeled
 from drawings import road as road

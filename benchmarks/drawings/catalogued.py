@@ -98,7 +98,8 @@ def strut(one, other, radius: float) -> Shape:
 
 
 def ram(
-    foot, head, axis, bore_radius: float, rod: float, hole: float, width: float, barrel: float, foot_hole: float = 0.0
+    foot, head, axis, bore_radius: float, rod: float, hole: float, width: float, barrel: float, foot_hole: float = 0.0,
+    foot_width: float = 0.0,
 ) -> tuple[Shape, Shape]:
     """A hydraulic cylinder between two pins along an axis: its barrel with a gland, and its rod with a piston."""
     foot, head = np.asarray(foot, float), np.asarray(head, float)
@@ -106,9 +107,9 @@ def ram(
     along = (head - foot) / long
     outer, edge, foot_hole = 1.25 * bore_radius, 1.8 * hole, foot_hole or hole
     start = foot + 1.9 * foot_hole * along
-    body = union(eye(foot, axis, hole, 1.8 * foot_hole, width), cyl(foot + foot_hole * 1.2 * along, along, outer, 1.9 * foot_hole + barrel))
+    body = union(eye(foot, axis, hole, 1.8 * foot_hole, foot_width or width), cyl(foot + foot_hole * 1.2 * along, along, outer, 1.9 * foot_hole + barrel))
     inside = cyl(start + 1.3 * foot_hole * along, along, bore_radius, barrel - 8 - foot_hole * 0.5)
-    body = cut(body, inside, bore(foot, axis, foot_hole, width), cyl(start, along, rod, barrel + 4 * foot_hole))
+    body = cut(body, inside, bore(foot, axis, foot_hole, foot_width or width), cyl(start, along, rod, barrel + 4 * foot_hole))
     deep = start + (1.3 * foot_hole + 0.25 * barrel) * along
     stem = union(
         strut(deep, head - 0.9 * hole * along, rod),

@@ -61,7 +61,7 @@ def magnetic_delta(random: np.random.Generator) -> Drawing:
             high = place(knee[0], side * half, knee[1])
             low = place(wrist[0], aside + side * half, wrist[1])
             way = (low - high) / np.linalg.norm(low - high)
-            ends = union(cyl(high + 1.2 * way, way, 5.8, 8.5), cyl(low - 1.2 * way, -way, 5.8, 8.5))
+            ends = union(cyl(high + 2.9 * way, way, 5.8, 7), cyl(low - 2.9 * way, -way, 5.8, 7))
             rod = union(ends, strut(high + 9 * way, low - 9 * way, 3))
             drawing.add(f"Rod:{number}{word}", cut(rod, sphere(high, ball + loose), sphere(low, ball + loose)))
             for centre, body, end in ((high, f"Bicep:{number}", "upper"), (low, "Effector", "lower")):
@@ -149,7 +149,7 @@ def two_stage_scissor_lift(random: np.random.Generator) -> Drawing:
     y0, y1 = -wide - 50, wide + 50
     lugs = [
         upright([at(p[0], p[1]), at(p[0], end)], *sorted((side * a, side * b)), half)
-        for p, end, half, a, b in ((left[0], -2, 18, wide - 12, wide - 2), (foot, -2, 18, 17, 27))
+        for p, end, half, a, b in ((left[0], -2, 18, wide - 12, wide - 2), (foot, -2, 18, 21, 31))
         for side in (-1, 1)
     ]
     base = union(box((span[0], y0, -10), (span[1], y1, 0)).edges("|Z").fillet(12), *(lug.cut(box((-999, -999, -99), (999, 999, -5))) for lug in lugs))
@@ -206,10 +206,10 @@ def two_stage_scissor_lift(random: np.random.Generator) -> Drawing:
             drawing.joint("Revolute", f"Slide shaft {place}", f"Slide block {place} {word}", upright_at(p, near), Y)
             drawing.joint("Prismatic", f"C channel {place} {word}", f"Slide block {place} {word}", upright_at(p, near), (1, 0, 0))
     gap = float(np.linalg.norm(middle[1] - foot))
-    barrel, rod = ram(upright_at(foot, 0), upright_at(middle[1], 0), Y, 16, 10, 8, 30, 0.62 * gap, 10)
+    barrel, rod = ram(upright_at(foot, 0), upright_at(middle[1], 0), Y, 16, 10, 8, 40, 0.62 * gap, 10)
     drawing.add("Cylinder barrel", barrel)
     drawing.add("Cylinder rod", cut(rod, bore(upright_at(middle[1], 0), Y, 8 + play, 40)))
-    drawing.add("Cylinder pin", cyl(upright_at(foot, -30), Y, 10, 60))
+    drawing.add("Cylinder pin", cyl(upright_at(foot, -34), Y, 10, 68))
     weld(drawing, "Base", "Cylinder pin")
     drawing.joint("Revolute", "Cylinder pin", "Cylinder barrel", upright_at(foot, 0), Y)
     drawing.joint("Revolute", "Mid shaft 2", "Cylinder rod", upright_at(middle[1], 0), Y)
