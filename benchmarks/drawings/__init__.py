@@ -8,12 +8,14 @@ from drawings import balanced as balanced
 from drawings import bodywork as bodywork
 from drawings import braked as braked
 from drawings import clockwork as clockwork
+from drawings import deployed as deployed
 from drawings import desktop as desktop
 from drawings import devices as devices
 from drawings import driveline as driveline
 from drawings import driven as driven
 from drawings import drives as drives
 from drawings import everyday as everyday
+from drawings import explored as explored
 from drawings import fittings as fittings
 from drawings import fixtures as fixtures
 from drawings import folding as folding
