@@ -4,6 +4,7 @@ from drawings import actuated as actuated
 from drawings import adjusted as adjusted
 from drawings import aligned as aligned
 from drawings import articulated as articulated
+from drawings import automated as automated
 from drawings import balanced as balanced
 from drawings import bodywork as bodywork
 from drawings import braked as braked

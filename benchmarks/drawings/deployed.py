@@ -45,7 +45,7 @@ def nose_landing_gear(random: np.random.Generator) -> Drawing:
     other = meet(high, 118, low, 112)
     apex = apex if apex @ aft > other @ aft else other
     axle = (712 + stroke) * down + 18 * aft
-    drawing = Drawing(fixed=["Bay structure"])
+    drawing = Drawing(fixed=["Bay structure"], unit="INCH")
     beams = [box((-390, *y), (330, *w)) for y, w in (((-92, -25), (-80, 62)), ((80, -25), (92, 62)))]
     bay = union(*beams, box((-390, -92, 56), (330, 92, 62)), *_cheeks([front, front + at(0, 60)], 27, 9, 16))
     bay = union(bay, *_cheeks([rear, rear + at(0, 58)], 20, 8, 16)).intersect(box((-999, -999, -999), (999, 999, 62)))
