@@ -67,7 +67,7 @@ def motor_v_twin(random: np.random.Generator) -> Drawing:
         fins = [cyl((0, 0, low), Z, 43, 3) for low in range(92, 168, 8)]
         barrel = union(cyl((0, 0, 62), Z, 33.5, 110), box((-44, -44, 82), (44, 44, 88)), cyl((0, 0, 82), Z, 36, 94), *fins)
         barrel = barrel.union(cyl((0, 0, 166), Z, 43, 10))
-        head = union(cyl((0, 0, 176), Z, 43, 24), *(box((-44, low, 200), (44, low + 4, 214)) for low in (-36, -20, -2, 16, 32)))
+        head = union(cyl((0, 0, 176), Z, 43, 24), *(box((-44, low, 200), (44, low + 4, 214)) for low in (-38, -20, -2, 16, 34)))
         head = head.cut(sphere((0, 0, 150), 36))
         spots = [at(a * 27, b * 27, 0) for a in (-1, 1) for b in (-1, 1)]
         place = (offset * Z, Z, way)
@@ -76,7 +76,7 @@ def motor_v_twin(random: np.random.Generator) -> Drawing:
         weld(drawing, "Carcasa", f"Cilindro-{number}")
         weld(drawing, f"Cilindro-{number}", f"Culata-{number}")
         for count, s in enumerate(spots, 4 * number - 3):
-            drawing.add(f"Tornillo M7-{count}", laid(capscrew(s + 214 * Z, -Z, 3.5, 50), *place))
+            drawing.add(f"Tornillo M7-{count}", laid(capscrew(s + 200 * Z, -Z, 3.5, 36), *place))
             weld(drawing, f"Culata-{number}", f"Tornillo M7-{count}")
         # the rod, in its own coordinates: x from the crank's pin to the piston's
         whole = union(
