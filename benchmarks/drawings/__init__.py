@@ -31,6 +31,7 @@ from drawings import levered as levered
 from drawings import lifted as lifted
 from drawings import linkages as linkages
 from drawings import machines as machines
+from drawings import modelled as modelled
 from drawings import mounted as mounted
 from drawings import mown as mown
 from drawings import office as office

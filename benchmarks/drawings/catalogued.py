@@ -6,7 +6,7 @@ import cadquery as cq
 import numpy as np
 
 from drawings.drawing import Drawing
-from drawings.shapes import X, Y, Z, Shape, at, bore, box, cut, cyl, hexagon, laid, screw, sphere, tube, union
+from drawings.shapes import Shape, X, Y, Z, at, bore, box, cut, cyl, hexagon, laid, screw, sphere, tube, union
 
 
 def weld(drawing: Drawing, body: str, *others: str) -> None:
@@ -77,7 +77,9 @@ def washer(point, axis, radius: float, thick: float = 0.5) -> Shape:
 def bolt(point, axis, radius: float, length: float) -> Shape:
     """A bolt with a hexagonal head on this side of the point."""
     unit = np.asarray(axis, float) / np.linalg.norm(axis)
-    return cyl(point, unit, radius, length).union(hexagon(np.asarray(point) - 1.3 * radius * unit, unit, 1.75 * radius, 1.3 * radius))
+    return cyl(point, unit, radius, length).union(
+        hexagon(np.asarray(point) - 1.3 * radius * unit, unit, 1.75 * radius, 1.3 * radius)
+    )
 
 
 def capscrew(point, axis, radius: float, length: float) -> Shape:
@@ -98,7 +100,15 @@ def strut(one, other, radius: float) -> Shape:
 
 
 def ram(
-    foot, head, axis, bore_radius: float, rod: float, hole: float, width: float, barrel: float, foot_hole: float = 0.0,
+    foot,
+    head,
+    axis,
+    bore_radius: float,
+    rod: float,
+    hole: float,
+    width: float,
+    barrel: float,
+    foot_hole: float = 0.0,
     foot_width: float = 0.0,
 ) -> tuple[Shape, Shape]:
     """A hydraulic cylinder between two pins along an axis: its barrel with a gland, and its rod with a piston."""
@@ -107,9 +117,14 @@ def ram(
     along = (head - foot) / long
     outer, edge, foot_hole = 1.25 * bore_radius, 1.8 * hole, foot_hole or hole
     start = foot + 1.9 * foot_hole * along
-    body = union(eye(foot, axis, hole, 1.8 * foot_hole, foot_width or width), cyl(foot + foot_hole * 1.2 * along, along, outer, 1.9 * foot_hole + barrel))
+    body = union(
+        eye(foot, axis, hole, 1.8 * foot_hole, foot_width or width),
+        cyl(foot + foot_hole * 1.2 * along, along, outer, 1.9 * foot_hole + barrel),
+    )
     inside = cyl(start + 1.3 * foot_hole * along, along, bore_radius, barrel - 8 - foot_hole * 0.5)
-    body = cut(body, inside, bore(foot, axis, foot_hole, foot_width or width), cyl(start, along, rod, barrel + 4 * foot_hole))
+    body = cut(
+        body, inside, bore(foot, axis, foot_hole, foot_width or width), cyl(start, along, rod, barrel + 4 * foot_hole)
+    )
     deep = start + (1.3 * foot_hole + 0.25 * barrel) * along
     stem = union(
         strut(deep, head - 0.9 * hole * along, rod),
@@ -122,7 +137,11 @@ def ram(
 def plate(points, low: float, high: float, half: float, holes=(), radius: float = 0.0) -> Shape:
     """A plate in the plane xy through points, each with a round corner about it, with a hole in each of some."""
     points = [np.asarray(p, float)[:2] for p in points]
-    shape = cq.Workplane("XY", origin=(0, 0, low)).polyline([tuple(p.tolist()) for p in points]).close().extrude(high - low) if len(points) > 2 else None
+    shape = (
+        cq.Workplane("XY", origin=(0, 0, low)).polyline([tuple(p.tolist()) for p in points]).close().extrude(high - low)
+        if len(points) > 2
+        else None
+    )
     for one, other in zip(points, points[1:] + points[:1], strict=True):
         along = other - one
         across = half * np.array([-along[1], along[0]]) / np.linalg.norm(along)

@@ -6,7 +6,7 @@ import numpy as np
 
 from drawings.catalogued import plate, ram, strut, upright, upright_at, weld
 from drawings.drawing import Drawing, kind
-from drawings.shapes import X, Y, Z, Shape, at, bore, box, cut, cyl, headed, laid, meet, tube, union
+from drawings.shapes import Shape, X, Y, Z, at, box, cut, cyl, headed, laid, meet, tube, union
 
 
 def _cheeks(points, near: float, thick: float, half: float) -> list[Shape]:
@@ -26,7 +26,7 @@ def nose_landing_gear(random: np.random.Generator) -> Drawing:
     Truth, along y unless said: strut cylinder on the bay's bushes; upper brace on the bay, lower brace on the upper and
     on the strut; actuator on the bay and its rod on the strut; upper torque link on the strut, lower on the upper and
     on the piston: revolute, and the wheel (one with tyre and bearings) on its axle, one with the piston. Piston in its
-    strut cylindrical along the strut, and so is the rod in its barrel. Pins are one with the bay, the strut, the piston,
+    strut cylindrical along the strut, and so is the rod in its barrel. Pins are one with the bay, the strut, piston,
     the upper brace and the upper torque link. Retraction, stroke, wheel: three freedoms.
     """
     rake = np.radians(random.uniform(-4, 9))
@@ -51,7 +51,9 @@ def nose_landing_gear(random: np.random.Generator) -> Drawing:
     bay = union(bay, *_cheeks([rear, rear + at(0, 58)], 20, 8, 16)).intersect(box((-999, -999, -999), (999, 999, 62)))
     drawing.add("Bay structure", cut(bay, _across(front, 60, 9), _across(rear, 60, 8), _across(pivot, 110, 17)))
     for side, word in ((-1, "RH"), (1, "LH")):
-        bush = union(tube((0, side * 80, 0), side * Y, 14 + play, 17, 12), tube((0, side * 78, 0), side * Y, 14 + play, 21, 2))
+        bush = union(
+            tube((0, side * 80, 0), side * Y, 14 + play, 17, 12), tube((0, side * 78, 0), side * Y, 14 + play, 21, 2)
+        )
         drawing.add(f"Trunnion bush {word}", bush)
         weld(drawing, "Bay structure", f"Trunnion bush {word}")
 
@@ -59,14 +61,21 @@ def nose_landing_gear(random: np.random.Generator) -> Drawing:
         return strut(upright_at(start * down, 0), upright_at(end * down, 0), radius)
 
     outer = union(along(-26, 425, 31), along(375, 425, 35), cyl((0, -76, 0), Y, 20, 152), cyl((0, -94, 0), Y, 14, 188))
-    outer = union(outer, *_cheeks([brace_low, brace_low + 40 * aft], 14, 9, 15), *_cheeks([pull, pull - 40 * aft], 14, 8, 14))
+    outer = union(
+        outer, *_cheeks([brace_low, brace_low + 40 * aft], 14, 9, 15), *_cheeks([pull, pull - 40 * aft], 14, 8, 14)
+    )
     outer = union(outer, upright([high, high - 30 * aft], -11, 11, 13))
     outer = cut(outer, along(20, 500, 22 + play), _across(brace_low, 40, 8), _across(pull, 40, 8), _across(high, 30, 6))
     drawing.add("Strut cylinder", outer)
     fork = union(
         along(200 + stroke, 540 + stroke, 22),
         along(538 + stroke, 585 + stroke, 34),
-        laid(box((-26, -76, 0), (26, 76, 18)), upright_at((575 + stroke) * down, 0), upright_at(aft, 0), upright_at(down, 0)),
+        laid(
+            box((-26, -76, 0), (26, 76, 18)),
+            upright_at((575 + stroke) * down, 0),
+            upright_at(aft, 0),
+            upright_at(down, 0),
+        ),
         *_cheeks([axle, (584 + stroke) * down], 62, 14, 22),
         *_cheeks([low, low - 30 * aft], 11.5, 8, 12),
     )
@@ -77,7 +86,9 @@ def nose_landing_gear(random: np.random.Generator) -> Drawing:
     drawing.add("Upper drag brace", cut(upper, _across(front, 40, 9 + play), _across(knee, 40, 8)))
     lower = cut(upright([knee, brace_low], -13, 13, 14), _across(knee, 40, 8 + play), _across(brace_low, 40, 8 + play))
     drawing.add("Lower drag brace", lower)
-    barrel, rod = ram(upright_at(rear, 0), upright_at(pull, 0), Y, 15, 8, 8, 27, 0.5 * float(np.linalg.norm(rear - pull)), 8, 38)
+    barrel, rod = ram(
+        upright_at(rear, 0), upright_at(pull, 0), Y, 15, 8, 8, 27, 0.5 * float(np.linalg.norm(rear - pull)), 8, 38
+    )
     drawing.add("Retraction actuator cylinder", barrel)
     drawing.add("Retraction actuator rod", rod)
     link = union(*_cheeks([high, apex], 11.5, 8, 11), cyl(upright_at(0.45 * high + 0.55 * apex, -14), Y, 7, 28))
@@ -98,7 +109,10 @@ def nose_landing_gear(random: np.random.Generator) -> Drawing:
         weld(drawing, owner, name)
     hub = upright_at(axle, 0)
     drawing.add("Axle", cyl(hub - 84 * Y, Y, 12, 168).edges("%CIRCLE").chamfer(1.5))
-    drawing.add("Nose wheel rim", cut(tube(hub - 46 * Y, Y, 18, 58, 92), tube(hub + 12 * Y, Y, 30, 50, 40), tube(hub - 52 * Y, Y, 30, 50, 40)))
+    drawing.add(
+        "Nose wheel rim",
+        cut(tube(hub - 46 * Y, Y, 18, 58, 92), tube(hub + 12 * Y, Y, 30, 50, 40), tube(hub - 52 * Y, Y, 30, 50, 40)),
+    )
     drawing.add("Tire 5.00-5", tube(hub - 52 * Y, Y, 58, 106, 104).edges("%CIRCLE").edges("<Y or >Y").fillet(14))
     for side, word in ((-1, "A"), (1, "B")):
         drawing.add(f"Wheel bearing {word}", tube(hub + (side * 38 - 8) * Y, Y, 12 + play, 18, 16))
@@ -119,7 +133,13 @@ def nose_landing_gear(random: np.random.Generator) -> Drawing:
     ):
         drawing.joint("Revolute", one, two, upright_at(p, 0), Y)
     drawing.joint("Cylindrical", "Strut cylinder", "Piston and fork", (0, 0, 0), upright_at(down, 0))
-    drawing.joint("Cylindrical", "Retraction actuator cylinder", "Retraction actuator rod", upright_at(rear, 0), upright_at(pull - rear, 0))
+    drawing.joint(
+        "Cylindrical",
+        "Retraction actuator cylinder",
+        "Retraction actuator rod",
+        upright_at(rear, 0),
+        upright_at(pull - rear, 0),
+    )
     return drawing
 
 
@@ -169,10 +189,13 @@ def excavator_assem(random: np.random.Generator) -> Drawing:
     stick = cut(stick, upright([tail, tail + at(0, 0.1)], -10.5, 10.5, 13))
     stick = union(stick, *_cheeks([back, base], 10.4, 6.6, 11))
     drawing.add("Dipper", cut(stick, *(_across(p, 60, pin) for p in (tail, elbow, back, hinge, tip))))
-    shell = [laid(plate([dug(*p) for p in edge], -wide, wide, 0.5), (0, 0, 0), X, -Y) for edge, wide in (
-        ([(17, 0), (17, 42), (57, 68), (98, 46), (110, 0)], 45),
-        ([(23, -15), (23, 38), (58, 61), (92, 41), (104, -15)], 40),
-    )]
+    shell = [
+        laid(plate([dug(*p) for p in edge], -wide, wide, 0.5), (0, 0, 0), X, -Y)
+        for edge, wide in (
+            ([(17, 0), (17, 42), (57, 68), (98, 46), (110, 0)], 45),
+            ([(23, -15), (23, 38), (58, 61), (92, 41), (104, -15)], 40),
+        )
+    ]
     bucket = union(cut(*shell), *_cheeks([tip, lip, dug(23, 20)], 11.5, 8, 10))
     drawing.add("Part5^Excavator", cut(bucket, _across(tip, 60, pin), _across(lip, 60, pin)))
     for number, side in enumerate((-1, 1), 1):

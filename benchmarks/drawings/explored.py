@@ -6,7 +6,7 @@ import numpy as np
 
 from drawings.catalogued import bolt, capscrew, nut, strut, upright, upright_at, washer, weld
 from drawings.drawing import Drawing, kind
-from drawings.shapes import X, Y, Z, Shape, at, bar, bore, box, cut, cyl, laid, sphere, tube, union
+from drawings.shapes import Shape, X, Y, Z, at, bar, bore, box, cut, cyl, laid, sphere, tube, union
 
 
 def _actuator(origin, x, z) -> tuple[Shape, Shape]:
@@ -24,8 +24,8 @@ def quadruped_pushrod_leg(random: np.random.Generator) -> Drawing:
 
     Truth: each rotor in its stator (revolute: along x at the chassis, along y at hip and knee's motor, on one line);
     rod on the crank's pin and on the shank's pin, shank on the knee's shaft: revolute along y. Hip bracket is one with
-    rotor 1 and stator 2; thigh's plates, standoffs, screws, stator 3 and the knee's shaft with rotor 2; crank and its pin
-    with rotor 3; the rod's bearings with the rod; knee's bearings, foot and the other pin with the shank. Three freedoms.
+    rotor 1 and stator 2; thigh's plates, standoffs, screws, stator 3 and the knee's shaft with rotor 2; crank and its
+    pin with rotor 3; the rod's bearings with the rod; knee's bearings, foot, other pin with the shank. Three freedoms.
     """
     thigh, shank = random.uniform(190, 215), random.uniform(180, 205)
     lean, fold = np.radians(random.uniform((15, 45), (45, 75)))
@@ -40,23 +40,30 @@ def quadruped_pushrod_leg(random: np.random.Generator) -> Drawing:
     toe = knee + shank * at(np.sin(lean - fold), -np.cos(lean - fold))
     play = float(random.choice([0, 0.02]))
     drawing = Drawing(fixed=["Chassis_Side_Plate"])
-    drawing.add("Chassis_Side_Plate", box((-6, -70, -60), (0, 70, 60)).edges("|X").fillet(10).cut(bore((-3, 0, 0), X, 20, 10)))
-    for number, (origin, x, z) in enumerate(
-        (((36, 0, 0), Z, X), ((96, 94, 0), Z, Y), ((96, 132, 0), Z, -Y)), 1
-    ):
+    drawing.add(
+        "Chassis_Side_Plate", box((-6, -70, -60), (0, 70, 60)).edges("|X").fillet(10).cut(bore((-3, 0, 0), X, 20, 10))
+    )
+    for number, (origin, x, z) in enumerate((((36, 0, 0), Z, X), ((96, 94, 0), Z, Y), ((96, 132, 0), Z, -Y)), 1):
         case, flange = _actuator(origin, x, z)
         drawing.add(f"AK80-9_Stator:{number}", case)
         drawing.add(f"AK80-9_Rotor:{number}", flange)
         drawing.joint("Revolute", f"AK80-9_Stator:{number}", f"AK80-9_Rotor:{number}", origin, z)
-    bracket = union(box((40, -30, -30), (46, 58, 30)), box((40, 52, -40), (hip[0], 58, 40)), cyl((hip[0], 52, 0), Y, 46, 6))
-    bracket = union(bracket, *(box((45, 20, z), (75, 53, z + 5)).edges("|Z and >X and <Y").chamfer(24) for z in (-30, 25)))
+    bracket = union(
+        box((40, -30, -30), (46, 58, 30)), box((40, 52, -40), (hip[0], 58, 40)), cyl((hip[0], 52, 0), Y, 46, 6)
+    )
+    bracket = union(
+        bracket, *(box((45, 20, z), (75, 53, z + 5)).edges("|Z and >X and <Y").chamfer(24) for z in (-30, 25))
+    )
     drawing.add("Hip_Bracket", bracket)
     weld(drawing, "Chassis_Side_Plate", "AK80-9_Stator:1")
     weld(drawing, "Hip_Bracket", "AK80-9_Rotor:1", "AK80-9_Stator:2")
     for name, low, round_ in (("Thigh_Plate_Inner", 98, 30), ("Thigh_Plate_Outer", 168, 46)):
         flat = union(upright([hip, knee], low, low + 6, 15), cyl((hip[0], low, hip[1]), Y, round_, 6))
         spots = [hip + along * down + 8 * side for along in (80, 135)]
-        drawing.add(name, cut(flat, bore(upright_at(knee, low), Y, 6, 20), *(bore(upright_at(p, low), Y, 2.5, 20) for p in spots)))
+        drawing.add(
+            name,
+            cut(flat, bore(upright_at(knee, low), Y, 6, 20), *(bore(upright_at(p, low), Y, 2.5, 20) for p in spots)),
+        )
     weld(drawing, "Thigh_Plate_Inner", "AK80-9_Rotor:2")
     weld(drawing, "Thigh_Plate_Outer", "AK80-9_Stator:3")
     for number, p in enumerate(spots, 1):
@@ -73,7 +80,9 @@ def quadruped_pushrod_leg(random: np.random.Generator) -> Drawing:
     weld(drawing, "Knee_Crank", "AK80-9_Rotor:3")
     rod = union(upright([crank, lever], 111, 119, 5), *(cyl(upright_at(p, 111), Y, 9, 8) for p in (crank, lever)))
     drawing.add("Push_Rod", cut(rod, *(bore(upright_at(p, 111), Y, 6, 20) for p in (crank, lever))))
-    leg = union(cyl(upright_at(knee, 106), Y, 16, 60), upright([knee, lever], 120, 128, 10), upright([knee, toe], 132, 146, 11))
+    leg = union(
+        cyl(upright_at(knee, 106), Y, 16, 60), upright([knee, lever], 120, 128, 10), upright([knee, toe], 132, 146, 11)
+    )
     leg = cut(leg, bore(upright_at(knee, 136), Y, 8, 90), *(cyl(upright_at(knee, y), Y, 12, 6) for y in (106, 160)))
     leg = cut(leg, bore(upright_at(lever, 120), Y, 3, 20))
     ball = sphere(upright_at(toe, 139), 19)
@@ -153,13 +162,20 @@ def rocker_bogie_rover(random: np.random.Generator) -> Drawing:
             cyl(out(centre, 80), way, 17, 17),
             cyl(out(front, 85), way, 15, 26),
         )
-        rocker = cut(rocker, bore(out(centre, 90), Y, 11, 20), bore(out(joint, 90), Y, 4, 20), bore(out(top, 90), Y, 3, 20))
+        rocker = cut(
+            rocker, bore(out(centre, 90), Y, 11, 20), bore(out(joint, 90), Y, 4, 20), bore(out(top, 90), Y, 3, 20)
+        )
         rocker = cut(rocker, bore(out(front, 95), Y, 3.5, 30))
         drawing.add(f"Rocker_{word}", rocker)
-        bogie = union(upright([middle, joint, rear], *mirrored(99, 111), 10), *(cyl(out(p, 99), way, 15, 12) for p in (middle, rear)))
+        bogie = union(
+            upright([middle, joint, rear], *mirrored(99, 111), 10),
+            *(cyl(out(p, 99), way, 15, 12) for p in (middle, rear)),
+        )
         bogie = cut(bogie, bore(out(joint, 100), Y, 4.1, 30), *(bore(out(p, 100), Y, 3.5, 30) for p in (middle, rear)))
         drawing.add(f"Bogie_{word}", bogie)
-        axle = union(cyl(out(centre, 40), way, 8, 42), cyl(out(centre, 70), way, 12, 8), cyl(out(centre, 78), way, 4, 24))
+        axle = union(
+            cyl(out(centre, 40), way, 8, 42), cyl(out(centre, 70), way, 12, 8), cyl(out(centre, 78), way, 4, 24)
+        )
         drawing.add(f"Stub_Axle_{word}", axle)
         drawing.add(f"608_Inner_{word}", tube(out(centre, 82), way, 4, 6.6, 7))
         drawing.add(f"608_Outer_{word}", tube(out(centre, 82), way, 6.8, 11, 7))
@@ -173,20 +189,35 @@ def rocker_bogie_rover(random: np.random.Generator) -> Drawing:
         weld(drawing, f"Rocker_{word}", f"M8x35_{word}", f"M8_Washer_{word}")
         weld(drawing, f"M8x35_{word}", f"M8_Locknut_{word}")
         drawing.joint("Revolute", f"Rocker_{word}", f"Bogie_{word}", out(joint, 98), Y)
-        for number, (p, owner, face) in enumerate(((front, "Rocker", 85), (middle, "Bogie", 99), (rear, "Bogie", 99)), 1):
-            case = union(cyl(out(p, face - 52), way, 12.5, 52), cyl(out(p, face - 1), way, 3.5, 3.5), cyl(out(p, face), way, 2, 132 - face))
+        for number, (p, owner, face) in enumerate(
+            ((front, "Rocker", 85), (middle, "Bogie", 99), (rear, "Bogie", 99)), 1
+        ):
+            case = union(
+                cyl(out(p, face - 52), way, 12.5, 52),
+                cyl(out(p, face - 1), way, 3.5, 3.5),
+                cyl(out(p, face), way, 2, 132 - face),
+            )
             flat = laid(box((1.5, -4, 108), (4, 4, 140)), out(p, 0), X, way)
             drawing.add(f"Gearmotor_25D_{word}{number}", case.cut(flat))
-            wheel = union(tube(out(p, 120), way, radius - 9, radius - 2, 44), cyl(out(p, 120), way, radius - 8, 5), cyl(out(p, 113), way, 8, 16))
+            wheel = union(
+                tube(out(p, 120), way, radius - 9, radius - 2, 44),
+                cyl(out(p, 120), way, radius - 8, 5),
+                cyl(out(p, 113), way, 8, 16),
+            )
             spots = np.arange(16) * np.pi / 8
-            ribs = [laid(box((radius - 4, -2, 120), (radius, 2, 164)), out(p, 0), at(np.cos(t), 0, np.sin(t)), way) for t in spots]
+            ribs = [
+                laid(box((radius - 4, -2, 120), (radius, 2, 164)), out(p, 0), at(np.cos(t), 0, np.sin(t)), way)
+                for t in spots
+            ]
             wheel = cut(union(wheel, *ribs), cut(cyl(out(p, 110), way, 2, 22), flat))
             drawing.add(f"Wheel_{word}{number}", wheel)
             weld(drawing, f"{owner}_{word}", f"Gearmotor_25D_{word}{number}")
             drawing.joint("Revolute", f"Gearmotor_25D_{word}{number}", f"Wheel_{word}{number}", out(p, 120), Y)
         near = out(top, 79)
         link = union(strut(near, end, 4), cyl(near - 4.5 * Y, Y, 11, 9), cyl(end - 4.5 * Z, Z, 11, 9))
-        drawing.add(f"Diff_Link_{word}", cut(link, sphere(near, 8), sphere(end, 8), bore(near, Y, 6.5, 6), bore(end, Z, 6.5, 6)))
+        drawing.add(
+            f"Diff_Link_{word}", cut(link, sphere(near, 8), sphere(end, 8), bore(near, Y, 6.5, 6), bore(end, Z, 6.5, 6))
+        )
         drawing.add(f"Rod_end_ball_{word}1", _eye_ball(near, Y))
         drawing.add(f"Rod_end_ball_{word}2", _eye_ball(end, Z))
         drawing.add(f"M6x30_{word}1", bolt(out(top, 97), -way, 3, 30))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from drawings.catalogued import eye, ram, stepper, strut, upright, upright_at, weld
+from drawings.catalogued import ram, stepper, strut, upright, upright_at, weld
 from drawings.drawing import Drawing, kind
 from drawings.shapes import Y, Z, at, bore, box, cut, cyl, laid, meet, sphere, union
 
@@ -113,7 +113,9 @@ def electric_hexapod(random: np.random.Generator) -> Drawing:
         tube = union(box((-11, -16, 19), (11, 16, 25)), *fork, cyl((0, 0, 24), Z, 12, 100))
         tube = cut(tube, bore((0, 0, 0), Y, 4 + play, 20), cyl((0, 0, 34), Z, 6 + play, 100))
         drawing.add(f"Actuator_Body_{name}", laid(tube, foot, np.cross(second, along), along))
-        rod = union(strut(foot + 70 * along, head - 12 * along, 6), strut(head - 13 * along, head, 3.5), sphere(head, 8))
+        rod = union(
+            strut(foot + 70 * along, head - 12 * along, 6), strut(head - 13 * along, head, 3.5), sphere(head, 8)
+        )
         drawing.add(f"Actuator_Rod_{name}", rod)
         socket = cyl((0, 0, -3), Z, 12, 17).cut(sphere((0, 0, 0), 8 + play / 2))
         drawing.add(f"Socket_{name}", laid(socket, head, turn[:, 0], turn[:, 2]))
@@ -152,7 +154,10 @@ def two_stage_scissor_lift(random: np.random.Generator) -> Drawing:
         for p, end, half, a, b in ((left[0], -2, 18, wide - 12, wide - 2), (foot, -2, 18, 21, 31))
         for side in (-1, 1)
     ]
-    base = union(box((span[0], y0, -10), (span[1], y1, 0)).edges("|Z").fillet(12), *(lug.cut(box((-999, -999, -99), (999, 999, -5))) for lug in lugs))
+    base = union(
+        box((span[0], y0, -10), (span[1], y1, 0)).edges("|Z").fillet(12),
+        *(lug.cut(box((-999, -999, -99), (999, 999, -5))) for lug in lugs),
+    )
     base = cut(base, bore(upright_at(left[0], 0), Y, 8 + play), bore(upright_at(foot, 0), Y, 10, 60))
     deck = levels[2] + 18.3
     lugs = [upright([left[2], left[2] + at(0, 24)], *sorted((s * (wide - 28), s * (wide - 16))), 17) for s in (-1, 1)]
@@ -172,7 +177,10 @@ def two_stage_scissor_lift(random: np.random.Generator) -> Drawing:
                 ("Inner", two, (wide - 12, wide - 2), [*two, middle[stage]]),
             ):
                 arm = upright(ends, *sorted(side * b for b in band), 14)
-                holes = [bore(upright_at(p, 0), Y, 8 + play * (not any(p is t for t in tight))) for p in (*ends, middle[stage])]
+                holes = [
+                    bore(upright_at(p, 0), Y, 8 + play * (not any(p is t for t in tight)))
+                    for p in (*ends, middle[stage])
+                ]
                 drawing.add(f"{name} arm {stage + 1}{word}", cut(arm, *holes))
         shaft(f"Mid shaft {stage + 1}", middle[stage], wide + 14)
         for word in "LR":
@@ -204,7 +212,9 @@ def two_stage_scissor_lift(random: np.random.Generator) -> Drawing:
             drawing.add(f"C channel {place} {word}", channel)
             weld(drawing, plane, f"C channel {place} {word}")
             drawing.joint("Revolute", f"Slide shaft {place}", f"Slide block {place} {word}", upright_at(p, near), Y)
-            drawing.joint("Prismatic", f"C channel {place} {word}", f"Slide block {place} {word}", upright_at(p, near), (1, 0, 0))
+            drawing.joint(
+                "Prismatic", f"C channel {place} {word}", f"Slide block {place} {word}", upright_at(p, near), (1, 0, 0)
+            )
     gap = float(np.linalg.norm(middle[1] - foot))
     barrel, rod = ram(upright_at(foot, 0), upright_at(middle[1], 0), Y, 16, 10, 8, 40, 0.62 * gap, 10)
     drawing.add("Cylinder barrel", barrel)

@@ -6,7 +6,7 @@ import numpy as np
 
 from drawings.catalogued import bolt, capscrew, eye, nut, plate, ram, rings, strut, weld
 from drawings.drawing import Drawing, kind
-from drawings.shapes import X, Y, Z, Shape, at, bore, box, cut, cyl, hexagon, laid, sphere, tube, union
+from drawings.shapes import Shape, X, Y, Z, at, bore, box, cut, cyl, hexagon, laid, sphere, tube, union
 
 
 @kind
@@ -65,13 +65,20 @@ def motor_v_twin(random: np.random.Generator) -> Drawing:
         wrist = up * way + offset * Z
         # the cylinder, in its own coordinates: z along it, x along the crank
         fins = [cyl((0, 0, low), Z, 43, 3) for low in range(92, 168, 8)]
-        barrel = union(cyl((0, 0, 62), Z, 33.5, 110), box((-44, -44, 82), (44, 44, 88)), cyl((0, 0, 82), Z, 36, 94), *fins)
+        barrel = union(
+            cyl((0, 0, 62), Z, 33.5, 110), box((-44, -44, 82), (44, 44, 88)), cyl((0, 0, 82), Z, 36, 94), *fins
+        )
         barrel = barrel.union(cyl((0, 0, 166), Z, 43, 10))
-        head = union(cyl((0, 0, 176), Z, 43, 24), *(box((-44, low, 200), (44, low + 4, 214)) for low in (-38, -20, -2, 16, 34)))
+        head = union(
+            cyl((0, 0, 176), Z, 43, 24), *(box((-44, low, 200), (44, low + 4, 214)) for low in (-38, -20, -2, 16, 34))
+        )
         head = head.cut(sphere((0, 0, 150), 36))
         spots = [at(a * 27, b * 27, 0) for a in (-1, 1) for b in (-1, 1)]
         place = (offset * Z, Z, way)
-        drawing.add(f"Cilindro-{number}", laid(cut(barrel, bore((0, 0, 100), Z, radius, 99), *(cyl(s + 160 * Z, Z, 3.5, 17) for s in spots)), *place))
+        drawing.add(
+            f"Cilindro-{number}",
+            laid(cut(barrel, bore((0, 0, 100), Z, radius, 99), *(cyl(s + 160 * Z, Z, 3.5, 17) for s in spots)), *place),
+        )
         drawing.add(f"Culata-{number}", laid(cut(head, *(bore(s + 190 * Z, Z, 4, 40) for s in spots)), *place))
         weld(drawing, "Carcasa", f"Cilindro-{number}")
         weld(drawing, f"Cilindro-{number}", f"Culata-{number}")
@@ -92,7 +99,9 @@ def motor_v_twin(random: np.random.Generator) -> Drawing:
         drawing.add(f"Tapa biela-{number}", laid(whole.intersect(box((0, -60, -20), (-200, 60, 20))), *lie))
         weld(drawing, f"Biela-{number}", f"Tapa biela-{number}")
         for count, y in enumerate((-22.5, 22.5), 2 * number - 1):
-            drawing.add(f"Perno biela-{count}", laid(cyl((-12, y, 0), X, 3, 22).union(hexagon((-15, y, 0), X, 4, 3)), *lie))
+            drawing.add(
+                f"Perno biela-{count}", laid(cyl((-12, y, 0), X, 3, 22).union(hexagon((-15, y, 0), X, 4, 3)), *lie)
+            )
             weld(drawing, f"Tapa biela-{number}", f"Perno biela-{count}")
         # the piston, in the cylinder's coordinates about its pin
         piston = cyl((0, 0, -24), Z, radius - play, 48).cut(cyl((0, 0, -24), Z, 25, 38.5))
@@ -123,7 +132,9 @@ def _ball(point, axis, hole: float = 5.0, tall: float = 9.0) -> Shape:
     return sphere(point, 12).intersect(cyl(point - tall * unit, unit, 20, 2 * tall)).cut(bore(point, unit, hole, 20))
 
 
-def _ears(point, axis, toward, reach: float, half: float = 12.0, near: float = 9.0, thick: float = 7.0) -> tuple[Shape, Shape]:
+def _ears(
+    point, axis, toward, reach: float, half: float = 12.0, near: float = 9.0, thick: float = 7.0
+) -> tuple[Shape, Shape]:
     """Two ears across an axis at a point, and on toward something, whole."""
     point, axis = np.asarray(point, float), np.asarray(axis, float) / np.linalg.norm(axis)
     toward = np.asarray(toward, float) - (np.asarray(toward, float) @ axis) * axis
@@ -150,9 +161,18 @@ def formula_student_corner(random: np.random.Generator) -> Drawing:
     tilt = np.radians(random.uniform(-3, 3, 2))
     low_mid, high_mid = at(-10, 232, -92), at(-10, 252, 62)
     push_out, rocker_at = at(0, 492, -58), at(0, 236, 196)
-    push_in, shock_in, shock_out = rocker_at + jog(0, 56, -12) * at(0, 1, 1), rocker_at + jog(0, -14, 58) * at(0, 1, 1), at(0, 30, 236)
+    push_in, shock_in, shock_out = (
+        rocker_at + jog(0, 56, -12) * at(0, 1, 1),
+        rocker_at + jog(0, -14, 58) * at(0, 1, 1),
+        at(0, 30, 236),
+    )
     drawing = Drawing(fixed=["Monocoque_Simplified"])
-    tub = box((-190, 0, -130), (170, 200, 120)).edges("|Y").fillet(25).cut(box((-178, -1, -118), (158, 188, 108)).edges("|Y").fillet(15))
+    tub = (
+        box((-190, 0, -130), (170, 200, 120))
+        .edges("|Y")
+        .fillet(25)
+        .cut(box((-178, -1, -118), (158, 188, 108)).edges("|Y").fillet(15))
+    )
     drawing.add("Monocoque_Simplified", cut(tub, bore((-70, 200, -52), Y, 18, 20)))
     for name, middle, lean, out, spread, balls in (
         ("Lower", low_mid, tilt[0], lower_out, 125, True),
@@ -160,7 +180,9 @@ def formula_student_corner(random: np.random.Generator) -> Drawing:
     ):
         axis = at(np.cos(lean), 0, np.sin(lean))
         ends = [middle + side * spread * axis for side in (1, -1)]
-        arm = union(*(strut(end, out, 7) for end in ends), *(eye(end, axis, 6, 13, 30) for end in ends), eye(out, Z, 5, 17, 13))
+        arm = union(
+            *(strut(end, out, 7) for end in ends), *(eye(end, axis, 6, 13, 30) for end in ends), eye(out, Z, 5, 17, 13)
+        )
         if balls:
             tabs = _ears(push_out, X, at(0, 0.2, -1), 32, 11, 9, 6)
             cross = box((-40, push_out[1] - 14, push_out[2] - 38), (40, push_out[1] + 10, push_out[2] - 20))
@@ -183,11 +205,15 @@ def formula_student_corner(random: np.random.Generator) -> Drawing:
     for p in (lower_out, upper_out):
         upright = union(upright, *_ears(p, Z, Y, 585 - p[1], 13))
     reach = np.linalg.norm((at(0, 583, 0) - tie_out)[:2])
-    upright = union(upright, *_ears(tie_out, Z, at(0, 583, 0) - tie_out, reach, 11), box((-20, 574, -60), (20, 592, -20)))
+    upright = union(
+        upright, *_ears(tie_out, Z, at(0, 583, 0) - tie_out, reach, 11), box((-20, 574, -60), (20, 592, -20))
+    )
     upright = cut(upright, *(bore(p, Z, 5, 30) for p in (lower_out, upper_out, tie_out)), bore((0, 583, 0), Y, 36, 20))
     upright = cut(upright, *(cyl(p - 9 * Z, Z, 20, 18) for p in (lower_out, upper_out, tie_out)))
     inner, outer = tube((0, 574, 0), Y, 20, 27.5, 18), tube((0, 574, 0), Y, 28, 36, 18)
-    hub = union(cyl((0, 566, 0), Y, 20, 54), cyl((0, 594, 0), Y, 27, 8), cyl((0, 614, 0), Y, 60, 9), cyl((0, 620, 0), Y, 16, 44))
+    hub = union(
+        cyl((0, 566, 0), Y, 20, 54), cyl((0, 594, 0), Y, 27, 8), cyl((0, 614, 0), Y, 60, 9), cyl((0, 620, 0), Y, 16, 44)
+    )
     drawing.add("Upright_FL", upright)
     drawing.add("Bearing_outer_ring", outer)
     drawing.add("Bearing_inner_ring", inner)
@@ -198,7 +224,11 @@ def formula_student_corner(random: np.random.Generator) -> Drawing:
     drawing.add("Wheel_rim_13in", cut(rim, *spokes))
     drawing.add("Tyre_Hoosier", tube((0, 510, 0), Y, 165, 232, 170))
     drawing.add("Centre_lock_nut", nut((0, 631, 0), Y, 16))
-    caliper = box((-135, 600, -26), (-72, 623, 26)).cut(box((-110, 607, -40), (-60, 616, 40))).union(box((-135, 580, -20), (-112, 602, 20)))
+    caliper = (
+        box((-135, 600, -26), (-72, 623, 26))
+        .cut(box((-110, 607, -40), (-60, 616, 40)))
+        .union(box((-135, 580, -20), (-112, 602, 20)))
+    )
     caliper = union(caliper, box((-135, 576, -20), (-40, 592, 20)).cut(cyl((0, 570, 0), Y, 46, 40)))
     drawing.add("Brake_caliper", caliper)
     weld(drawing, "Upright_FL", "Bearing_outer_ring", "Brake_caliper")
@@ -208,14 +238,18 @@ def formula_student_corner(random: np.random.Generator) -> Drawing:
     housing = box((-86, 40, -68), (-54, 180, -36)).union(box((-100, 50, -118), (-40, 170, -66)))
     drawing.add("Rack_housing", housing.cut(box((-80.1, 0, -62.1), (-59.9, 300, -41.9))))
     ears = _ears(tie_in, Z, -Y, 24, 10, 9, 5)
-    rack = union(box((-80, 20, -62), (-60, 212, -42)).edges("|Y").chamfer(1.5), box((-80, 208, -66), (-60, 219, -38)), *ears)
+    rack = union(
+        box((-80, 20, -62), (-60, 212, -42)).edges("|Y").chamfer(1.5), box((-80, 208, -66), (-60, 219, -38)), *ears
+    )
     drawing.add("Steering_rack", cut(rack, bore(tie_in, Z, 5, 30)))
     weld(drawing, "Monocoque_Simplified", "Rack_housing")
     drawing.joint("Prismatic", "Rack_housing", "Steering_rack", (-70, 100, -52), Y)
     # rods with an eye and a ball at both ends, and the wishbones' own balls
     for name, one, other, axis in (("Tie_rod", tie_in, tie_out, Z), ("Pushrod", push_out, push_in, X)):
         whole = union(strut(one, other, 8), eye(one, axis, 5, 16, 12), eye(other, axis, 5, 16, 12))
-        drawing.add(name, cut(whole, sphere(one, 12), sphere(other, 12), bore(one, axis, 10.5, 8), bore(other, axis, 10.5, 8)))
+        drawing.add(
+            name, cut(whole, sphere(one, 12), sphere(other, 12), bore(one, axis, 10.5, 8), bore(other, axis, 10.5, 8))
+        )
     for number, (p, axis, holder, rod, ear) in enumerate(
         (
             (lower_out, Z, "Upright_FL", "Lower_A-Arm", 7),
@@ -236,7 +270,11 @@ def formula_student_corner(random: np.random.Generator) -> Drawing:
     sides = []
     for low in (9, -14):
         sides += [laid(plate(flat, low, low + 5, 11), (0, 0, 0), Y, X)]
-    rocker = cut(union(*sides, cyl(rocker_at - 14 * X, X, 15, 28)), bore(rocker_at, X, 8.05, 30), *(bore(p, X, 5, 30) for p in (push_in, shock_in)))
+    rocker = cut(
+        union(*sides, cyl(rocker_at - 14 * X, X, 15, 28)),
+        bore(rocker_at, X, 8.05, 30),
+        *(bore(p, X, 5, 30) for p in (push_in, shock_in)),
+    )
     drawing.add("Rocker", rocker)
     mount = union(*_ears(rocker_at, X, at(0, -1, -2), 78, 14, 15, 8), box((-40, 165, 120), (40, 200, 128)))
     mount = mount.intersect(box((-99, 0, 120), (99, 400, 400)))

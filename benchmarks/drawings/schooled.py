@@ -7,7 +7,7 @@ import numpy as np
 
 from drawings.catalogued import bolt, capscrew, nut, plate, servo, servo_horn, washer, weld
 from drawings.drawing import Drawing, kind
-from drawings.shapes import Y, Z, Shape, at, bore, box, cut, cyl, laid, meet, tube, union
+from drawings.shapes import Shape, Y, Z, at, bore, box, cut, cyl, laid, meet, tube, union
 
 
 def _toward(angle: float) -> np.ndarray:
@@ -62,7 +62,10 @@ def servo_bracket_arm(random: np.random.Generator) -> Drawing:
 
     def arm(start, angle: float, length: float) -> Shape:
         """A bracket astride a servo, with a web, and a seat for the next servo."""
-        flat = [box((-14, low, -14), (48 if length else 54, high, 14)).edges("|Y and <X").fillet(12) for low, high in ((4, 6), (-45, -42))]
+        flat = [
+            box((-14, low, -14), (48 if length else 54, high, 14)).edges("|Y and <X").fillet(12)
+            for low, high in ((4, 6), (-45, -42))
+        ]
         if length:
             flat += [box((46, -45, -14), (48, 6, 14)), box((46, -14, -16), (length - 40, -11, 16))]
             flat += [laid(union(seat, pin), at(length, 0, 0), at(-1, 0, 0), Y), box((46, -41, -9), (length, -38, 9))]
@@ -144,7 +147,9 @@ def geared_parallel_gripper(random: np.random.Generator) -> Drawing:
         elbow = far_near + at(side * 2, 22)
         tip = far_near + at(side * -10, 44)
         finger = union(plate([far, far_near], high, top, 6), plate([far_near, elbow], high, top, 6))
-        finger = union(finger, plate([elbow, tip], high, top, 5), box((*(tip + at(-3.5, -6)), 10), (*(tip + at(3.5, 16)), top)))
+        finger = union(
+            finger, plate([elbow, tip], high, top, 5), box((*(tip + at(-3.5, -6)), 10), (*(tip + at(3.5, 16)), top))
+        )
         name = "Finger" if side > 0 else "MirrorFinger"
         drawing.add(name, cut(finger, bore((*far, 20), Z, 1.5, 4), bore((*far_near, 20), Z, 1.5, 4)))
         if side > 0:
