@@ -97,8 +97,8 @@ def aileron_drive(random: np.random.Generator) -> Drawing:
     """An aileron of a model aircraft with its servo, arm, pushrod and horn: holes everywhere, and no pin in any.
 
     Truth, along y: aileron on the two hinge tabs of the wing, arm on the servo's shaft, one clevis on the arm and the
-    other on the control horn: revolute. Servo and tabs are one with the wing, both clevises with the wire, horn and its
-    back plate with the aileron. One freedom.
+    other on the control horn: revolute. Servo, its screws and tabs are one with the wing, both
+    clevises with the wire, the horn with the aileron. One freedom.
     """
     bend, turn = np.radians(random.uniform((-18, -25), (18, 25)))
     span, chord = random.uniform(320, 420), random.uniform(70, 100)
@@ -110,7 +110,9 @@ def aileron_drive(random: np.random.Generator) -> Drawing:
         return hinge + at(np.cos(bend) * x - np.sin(bend) * z, np.sin(bend) * x + np.cos(bend) * z)
 
     wing = cq.Workplane("XZ").polyline([(-150, -17), (-150, 17), (-2, 9.5), (-2, -9.5)]).close().extrude(-span)
-    pocket = box((-104, station - 29, -40), (-58, station + 8, 3))
+    pocket = box((-104, station - 10.1, -40), (-66, station + 8, 3)).union(
+        box((-97.1, station - 29, -40), (-73.9, station, -1.9))
+    )
     tabs = [0.15 * span, 0.85 * span]
     slots = [box((-14, y - 1.5, -3), (0, y + 1.5, 3)) for y in tabs]
     drawing.add("wing_section", cut(wing, pocket, *slots))
@@ -136,6 +138,11 @@ def aileron_drive(random: np.random.Generator) -> Drawing:
         cyl((0, 0, 0), Z, 5.5, 1),
         cyl((0, 0, 0), Z, 2.3, 3.6),
     )
+    case = cut(case, *(bore((along, 0, -5), Z, 1.1, 3) for along in (-8.2, 19.3)))
+    for number, along in enumerate((-8.2, 19.3), 1):  # into wood that nobody drilled
+        seat = at(shaft[0] - along, station - 7.6, shaft[1])
+        drawing.add(f"servo_screw_{number}", capscrew(seat, -Y, 0.9, 8))
+        weld(drawing, "SG90", f"servo_screw_{number}")
     drawing.add("SG90", laid(case, upright_at(shaft, station - 3.6), -X, Y))
     arm = union(upright([shaft, tip], -0.75, 0.75, 2.5), cyl(upright_at(shaft, -2.2), Y, 3.6, 3.6))
     holes = [bore(upright_at(shaft + far * (tip - shaft), 0), Y, 0.8, 9) for far in (0.5, 0.75, 1)]
