@@ -145,7 +145,7 @@ def nose_landing_gear(random: np.random.Generator) -> Drawing:
 
 @kind
 def excavator_assem(random: np.random.Generator) -> Drawing:
-    """An excavator's arm from a course in SolidWorks, plain pins in holes equal to them or nearly, parts named as they were begun.
+    """An excavator's arm from a course in SolidWorks, plain pins in near holes, parts named as they were begun.
 
     Truth, all along y unless said: body turns on the undercarriage (revolute, vertical); boom on the body, stick on
     the boom, bucket on the stick, rocker on the stick, link on the rocker and on the bucket: revolute; three cylinders,
