@@ -10,8 +10,10 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from jaxkin.contacts.whole_face import is_whole
+from jaxkin.geometry.congruent import displacement
 from jaxkin.geometry.displaced import Displaced
 from jaxkin.geometry.part import Face, Part, box_corners
+from jaxkin.geometry.pose import Transform
 from jaxkin.geometry.sample_points import SurfacePoints, core_points, surface_points
 from jaxkin.geometry.surfaces import Cone, Plane, Sphere
 from jaxkin.geometry.triangle_distance import Points
@@ -19,13 +21,19 @@ from jaxkin.geometry.triangle_tree import TriangleTree, aligned_axes, triangle_t
 
 _SAME_PLACE = 1e-7
 """Share of the size of a part within which two triangles are the same: corners were moved by rounded displacements."""
+_SAME_MESH = 1e-9
+"""Share of the size of a part within which the corners of two instances are the same: both were moved from one mesh, in
+float64. Meshes of files in float32 that differ by their rounding are searched as they are."""
 
 
 @dataclass(frozen=True, eq=False)
 class ClashShape:
-    """A part as triangles with labels: the number of their face, or the number of faces where they are of none."""
+    """A mesh as triangles with labels: the number of their face, or the number of faces where they are of none."""
 
     part: Part
+    """The first part that has this mesh; the others are displaced from where it is."""
+    number: int
+    """The place of the mesh among all of a mechanism."""
     axes: Float[np.ndarray, "3 3"]
     """Axes along which the part is flat, in rows; the coordinates of the tree are along them."""
     tree: TriangleTree
@@ -58,6 +66,13 @@ class ClashShape:
         """Points inside of the solid, in the axes."""
         return core_points(self.tree.triangles, self.labels)
 
+    def reached(self, points: Points, back: Displaced) -> Bool[np.ndarray, " points"]:
+        """Tell which points of another solid are in the box of the shape, which is displaced, at some displacement."""
+        middle, half = self.tree.middles[:, 0], self.tree.halves[:, 0]
+        middles, halves = back.rotation @ middle + back.shift, np.abs(back.rotation) @ half
+        low, high = (middles - halves).min(axis=0), (middles + halves).max(axis=0)
+        return np.all((points >= low) & (points <= high), axis=1)
+
 
 def axis_points(face: Face) -> Float[np.ndarray, "_ 3"] | None:
     """Find points of the axis of a whole face of revolution, at its ends, or its centre; None for all other faces."""
@@ -72,8 +87,40 @@ def axis_points(face: Face) -> Float[np.ndarray, "_ 3"] | None:
     return np.stack([foot - half * surface.axis, foot + half * surface.axis])
 
 
-def shape_of(part: Part) -> ClashShape:
-    """Prepare a part."""
+@dataclass(frozen=True, eq=False)
+class ClashPart:
+    """A part as one of few meshes, displaced: a screw that an assembly has a hundred times is prepared once."""
+
+    part: Part
+    shape: ClashShape
+    place: Transform
+    """Displacement of the part that has the mesh to this one."""
+
+
+def clash_parts(parts: Sequence[Part]) -> tuple[ClashPart, ...]:
+    """Prepare parts, and find which of them are displaced copies of others, with the same faces in the same order."""
+    found: list[ClashPart] = []
+    alike: dict[tuple[int, ...], list[ClashShape]] = {}
+    count = 0
+    for part in parts:
+        known = alike.setdefault((len(part.triangles), *(len(face.triangles) for face in part.faces)), [])
+        corners, length = _corners(part), _SAME_MESH * float(np.ptp(part.box, axis=0).max())
+        places = ((shape, displacement(_corners(shape.part), corners, length)) for shape in known)
+        shape, place = next(((shape, place) for shape, place in places if place is not None), (None, np.eye(4)))
+        if shape is None:
+            shape, count = _shape_of(part, count), count + 1
+            known.append(shape)
+        found.append(ClashPart(part, shape, place))
+    return tuple(found)
+
+
+def _corners(part: Part) -> Points:
+    """List the corners of all triangles of a part, and those of its faces."""
+    return np.concatenate([part.triangles, *(face.triangles for face in part.faces)]).reshape(-1, 3).astype(float)
+
+
+def _shape_of(part: Part, number: int) -> ClashShape:
+    """Prepare the mesh of a part."""
     from scipy.spatial import KDTree
 
     axes = aligned_axes(part.triangles)
@@ -86,31 +133,32 @@ def shape_of(part: Part) -> ClashShape:
         known = np.isfinite(distance)
         labels[known] = owners[np.asarray(nearest)[known]]
     triangles = np.ascontiguousarray(part.triangles, float) @ axes.T
-    return ClashShape(part, axes, triangle_tree(triangles, labels), labels)
+    return ClashShape(part, number, axes, triangle_tree(triangles, labels), labels)
 
 
-def displaced(one: ClashShape, other: ClashShape, of_one: np.ndarray, of_other: np.ndarray) -> Displaced:
-    """Compute the displacements of one shape relative to another from those in the world, (poses, 4, 4) each."""
+def displaced(one: ClashPart, other: ClashPart, of_one: np.ndarray, of_other: np.ndarray) -> Displaced:
+    """Compute the displacements of one mesh relative to another from those of the parts in the world, (poses, 4, 4)."""
+    of_one, of_other = of_one @ one.place, of_other @ other.place
     turn = np.swapaxes(of_one[:, :3, :3], 1, 2)
     rotation = turn @ of_other[:, :3, :3]
     shift = np.einsum("pij,pj->pi", turn, of_other[:, :3, 3] - of_one[:, :3, 3])
-    return Displaced(one.axes @ rotation @ other.axes.T, shift @ one.axes.T)
+    return Displaced(one.shape.axes @ rotation @ other.shape.axes.T, shift @ one.shape.axes.T)
 
 
-def boxes_along(shape: ClashShape, transforms: Float[np.ndarray, "poses 4 4"]) -> Float[np.ndarray, "poses 2 3"]:
+def boxes_along(part: Part, transforms: Float[np.ndarray, "poses 4 4"]) -> Float[np.ndarray, "poses 2 3"]:
     """Compute the bounding boxes of a displaced part in world axes."""
-    points = np.einsum("pij,nj->pni", transforms[:, :3, :3], shape.part.outermost) + transforms[:, None, :3, 3]
+    points = np.einsum("pij,nj->pni", transforms[:, :3, :3], part.outermost) + transforms[:, None, :3, 3]
     return np.stack([points.min(axis=1), points.max(axis=1)], axis=1)
 
 
-def largest_step(shapes: Sequence[ClashShape], places: Sequence[Float[np.ndarray, "poses 4 4"]]) -> float:
-    """Bound how far a point of a displaced part moves from one pose to the next, unit of the shapes.
+def largest_step(parts: Sequence[Part], places: Sequence[Float[np.ndarray, "poses 4 4"]]) -> float:
+    """Bound how far a point of a displaced part moves from one pose to the next, unit of the parts.
 
     It is an affine function of the point, so that none of the box of a part moves farther than a corner of it.
     """
     found = 0.0
-    for shape, transforms in zip(shapes, places, strict=True):
-        points = shape.part.outermost
+    for part, transforms in zip(parts, places, strict=True):
+        points = part.outermost
         corners = box_corners(np.stack([points.min(axis=0), points.max(axis=0)]))
         steps = np.diff(transforms, axis=0)
         moved = np.einsum("pij,nj->pni", steps[:, :3, :3], corners) + steps[:, None, :3, 3]

@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Float
 
 from jaxkin._arguments import check_known, check_motion, numbers, several
 from jaxkin._names import nearest
 from jaxkin.assembly.joined import all_contacts
+from jaxkin.effects.clash_cases import ClashCase, distinct_cases
 from jaxkin.effects.clash_result import Clashes
-from jaxkin.effects.clash_shapes import ClashShape, boxes_along, displaced, largest_step, near_pairs, shape_of
-from jaxkin.effects.invariant_faces import SAME_PLACE, invariant
-from jaxkin.effects.penetration import depths
-from jaxkin.effects.sampled_depths import sampled_depths
-from jaxkin.geometry.displaced import Displaced
+from jaxkin.effects.clash_search import clearances
+from jaxkin.effects.clash_shapes import ClashPart, boxes_along, clash_parts, displaced, largest_step, near_pairs
+from jaxkin.effects.invariant_faces import SAME_PLACE
 from jaxkin.geometry.part import size
-from jaxkin.geometry.tree_crossings import Slack, crossings
-from jaxkin.geometry.tree_distances import distances
+from jaxkin.geometry.tree_crossings import Slack
 from jaxkin.mechanism.lost_contacts import FaceSetting
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
@@ -27,8 +23,6 @@ from jaxkin.mechanism.motion import Motion
 WITHIN = 0.02
 """Clearance over the size of the mechanism up to which it is measured by default: what is farther away is no concern,
 and costs nothing."""
-_AT_REST = 1e-12
-"""Change of a displacement, over the size, below which two parts are at rest relative to each other: rounding."""
 
 
 def clashes(
@@ -77,27 +71,25 @@ def clashes(
     is_closed = np.asarray(motion.closed)
     (closed,) = np.nonzero(is_closed)
     places = [np.asarray(motion.transforms[part.name], float)[closed] for part in mechanism.solids]
-    shapes = [shape_of(part) for part in mechanism.solids]
-    boxes = np.stack([boxes_along(shape, place) for shape, place in zip(shapes, places, strict=True)])
-    compared = _compared(mechanism, setting, ignore)
+    boxes = np.stack([boxes_along(part, place) for part, place in zip(mechanism.solids, places, strict=True)])
+    near = near_pairs(boxes, _compared(mechanism, setting, ignore), within)
+    parts = clash_parts(mechanism.solids)
     misfits = _misfits(mechanism)
+    cases = [_case(parts[i], parts[j], misfits, least, places[i][some], places[j][some]) for i, j, some in near]
+    distinct = distinct_cases(cases, size(mechanism.solids))
+    measured = clearances(distinct.cases, within, still)
     pairs, joined, rows = [], [], []
-    for i, j, near in near_pairs(boxes, compared, within):
-        names = shapes[i].part.name, shapes[j].part.name
-        slack = _slack(shapes[i], shapes[j], misfits, least)
-        is_joined = frozenset(names) in misfits
+    for (i, j, some), case, which, poses in zip(near, cases, distinct.which, distinct.poses, strict=True):
         row = np.full(len(motion), np.nan)
         row[closed] = np.inf
-        moved = displaced(shapes[i], shapes[j], places[i][near], places[j][near])
-        pair = _ShapePair(shapes[i], shapes[j], slack, is_joined)
-        row[closed[near]] = _clearances(pair, moved, 0.0 if is_joined else within, still)
-        if is_joined or np.any(row <= within):
-            pairs.append(names)
-            joined.append(is_joined)
+        row[closed[some]] = measured[which][poses]
+        if case.joined or np.any(row <= within):
+            pairs.append((parts[i].part.name, parts[j].part.name))
+            joined.append(case.joined)
             rows.append(row)
-    clearances = np.stack(rows) if rows else np.zeros((0, len(motion)))
-    step = largest_step(shapes, places)
-    return Clashes(motion, tuple(pairs), np.array(joined, bool), clearances, is_closed, within, mechanism.unit, step)
+    found = np.stack(rows) if rows else np.zeros((0, len(motion)))
+    step = largest_step(mechanism.solids, places)
+    return Clashes(motion, tuple(pairs), np.array(joined, bool), found, is_closed, within, mechanism.unit, step)
 
 
 def _compared(mechanism: Mechanism, setting: FaceSetting, ignore: Sequence[Sequence[str]]) -> np.ndarray:
@@ -127,55 +119,23 @@ def _misfits(mechanism: Mechanism) -> dict[frozenset[str], dict[tuple[tuple[str,
     return found
 
 
-def _slack(one: ClashShape, other: ClashShape, misfits: dict, least: float) -> Slack:
-    """Say by how much the triangles of two shapes may overlap, and which of them are in contact by design."""
-    shapes = {one.part.name: one, other.part.name: other}
-    numbers = {name: {face.name: k for k, face in enumerate(shape.part.faces)} for name, shape in shapes.items()}
-    slack = {name: shape.bulges.copy() for name, shape in shapes.items()}
-    ignored = np.zeros((len(one.bulges), len(other.bulges)), bool)
-    for sides, misfit in misfits.get(frozenset(shapes), {}).items():
+def _case(
+    one: ClashPart, other: ClashPart, misfits: dict, least: float, of_one: np.ndarray, of_other: np.ndarray
+) -> ClashCase:
+    """Say how two parts are displaced, (poses, 4, 4) each, and by how much which of their triangles may overlap."""
+    parts = {each.part.name: each for each in (one, other)}
+    slack = {name: each.shape.bulges for name, each in parts.items()}
+    ignored = np.broadcast_to(False, (len(one.shape.bulges), len(other.shape.bulges)))
+    touching = misfits.get(frozenset(parts), {})
+    if touching:
+        numbers = {name: {face.name: k for k, face in enumerate(each.part.faces)} for name, each in parts.items()}
+        slack, ignored = {name: each.copy() for name, each in slack.items()}, ignored.copy()
+    for sides, misfit in touching.items():
         at = {part: numbers[part][face] for part, face in sides}
         ignored[at[one.part.name], at[other.part.name]] = True
         for part, number in at.items():
-            bulge = shapes[part].bulges[number]
+            bulge = parts[part].shape.bulges[number]
             slack[part][number] = max(slack[part][number], bulge + misfit)
-    first, second = (slack[shape.part.name][shape.labels] for shape in (one, other))
-    return Slack(least, first, second, ignored)
-
-
-class _ShapePair(NamedTuple):
-    """Two shapes that may clash."""
-
-    one: ClashShape
-    other: ClashShape
-    slack: Slack
-    joined: bool
-    """Whether faces of theirs are in contact by design."""
-
-
-def _clearances(pair: _ShapePair, moved: Displaced, within: float, still: float) -> Float[np.ndarray, " poses"]:
-    """Measure the clearance of two shapes at each displacement; infinite beyond `within`.
-
-    Faces that all displacements of joined shapes leave in place, to `still`, may touch.
-    """
-    one, other, slack, joined = pair
-    count = len(moved.shift)
-    reach = max(1.0, float(np.abs(moved.shift).max()))
-    change = max(np.ptp(moved.rotation, axis=0).max(), np.ptp(moved.shift, axis=0).max() / reach)
-    if count > 1 and change <= _AT_REST:
-        return np.repeat(_clearances(pair, moved.at(np.array([0])), within, still), count)
-    if joined and not len(crossings(one.tree, other.tree, moved.at(np.array([0])), slack).pose):
-        slack = slack._replace(ignored=slack.ignored | invariant(one, other, moved, still))
-    crossed = crossings(one.tree, other.tree, moved, slack)
-    on_faces, amid = sampled_depths(one, other, moved, slack)
-    suspects = np.union1d(crossed.pose, np.flatnonzero(np.maximum(on_faces, amid)))
-    result = np.zeros(count)
-    if len(suspects):
-        here = crossed._replace(pose=np.searchsorted(suspects, crossed.pose))
-        deep = np.maximum(depths(one, other, moved.at(suspects), here, slack), on_faces[suspects])
-        # two solids that coincide have no point of their surfaces in each other
-        result[suspects] = -np.where(deep > 0, deep, amid[suspects])
-    free = np.flatnonzero(result == 0)
-    if not joined and len(free):
-        result[free] = distances(one.tree, other.tree, moved.at(free), within) if within else np.inf
-    return result
+    first, second = slack[one.part.name], slack[other.part.name]
+    moved = displaced(one, other, of_one, of_other)
+    return ClashCase(one.shape, other.shape, Slack(least, first, second, ignored), bool(touching), moved)

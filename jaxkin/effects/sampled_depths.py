@@ -18,44 +18,50 @@ _AT_ONCE = 1 << 20
 
 
 def sampled_depths(
-    one: ClashShape, other: ClashShape, displaced: Displaced, slack: Slack
+    one: ClashShape, other: ClashShape, displaced: Displaced, slack: Slack, near: Int[np.ndarray, " _"]
 ) -> Float[np.ndarray, "2 poses"]:
     """Measure the depth at each displacement of points of the surfaces, and of points amid the solids, in two rows.
 
-    It is 0 where no point is deeper than the slack of where it is.
+    It is 0 where no point is deeper than the slack of where it is. `near` are the displacements at which the boxes of
+    the solids overlap by more than the least slack: at the others no point is deeper.
     """
-    exchanged = Slack(slack.least, slack.second, slack.first, slack.ignored.T)
     return np.maximum(
-        _of_first(one, other, displaced.inverse(), slack),
-        _of_first(other, one, displaced, exchanged),
+        _of_first(one, other, displaced.inverse(), displaced, slack, near),
+        _of_first(other, one, displaced, displaced.inverse(), slack.exchanged(), near),
     )
 
 
-def _of_first(one: ClashShape, other: ClashShape, displaced: Displaced, slack: Slack) -> Float[np.ndarray, "2 poses"]:
+def _of_first(
+    one: ClashShape, other: ClashShape, displaced: Displaced, back: Displaced, slack: Slack, near: np.ndarray
+) -> Float[np.ndarray, "2 poses"]:
     """Measure how deep points of the surface of shape 1, which is displaced, and points amid it are in shape 2."""
+    found = np.zeros((2, len(displaced.shift)))
+    if not len(near):
+        return found
     surface, cores = one.surface_points, one.core_points
     points = np.concatenate([surface.points, cores])
     on_surface = np.repeat([True, False], [len(surface.points), len(cores)])
-    allowed = slack.least + np.concatenate([slack.first[surface.triangle], np.zeros(len(cores))])
+    labels = one.labels[surface.triangle]
+    allowed = slack.least + np.concatenate([slack.first[labels], np.zeros(len(cores))])
     # faces that the motion maps onto themselves are as near the other solid as at the first displacement
-    invariant = np.asarray(np.all(slack.ignored, axis=1))[one.labels[surface.triangle]]
-    once = np.concatenate([invariant, np.zeros(len(cores), bool)])
-    _, _, lasting = _inside(points[once], allowed[once], displaced.at(np.array([0])), other, slack.second)
-    points, allowed, on_surface = points[~once], allowed[~once], on_surface[~once]
-    count, size = len(displaced.shift), max(1, _AT_ONCE // max(1, len(points)))
-    found = np.zeros((2, count))
-    found[0] = lasting.max(initial=0.0)
-    for begin in range(0, count, size):
-        some = displaced.at(np.arange(begin, min(begin + size, count)))
-        point, pose, depth = _inside(points, allowed, some, other, slack.second)
-        np.maximum.at(found, (np.where(on_surface[point], 0, 1), begin + pose), depth)
+    once = np.concatenate([np.asarray(np.all(slack.ignored, axis=1))[labels], np.zeros(len(cores), bool)])
+    if near[0] == 0:
+        _, _, lasting = _inside(points[once], allowed[once], displaced.at(np.array([0])), other, slack.second)
+        found[0] = lasting.max(initial=0.0)
+    often = ~once & other.reached(points, back.at(near))
+    points, allowed, on_surface = points[often], allowed[often], on_surface[often]
+    size = max(1, _AT_ONCE // max(1, len(points)))
+    for begin in range(0, len(near), size):
+        some = near[begin : begin + size]
+        point, pose, depth = _inside(points, allowed, displaced.at(some), other, slack.second)
+        np.maximum.at(found, (np.where(on_surface[point], 0, 1), some[pose]), depth)
     return found
 
 
 def _inside(
     points: Points, allowed: Float[np.ndarray, " points"], displaced: Displaced, other: ClashShape, slack: np.ndarray
 ) -> tuple[Int[np.ndarray, " _"], Int[np.ndarray, " _"], Float[np.ndarray, " _"]]:
-    """Find where displaced points are deeper in a shape, whose triangles have slacks, than what is allowed.
+    """Find where displaced points are deeper in a shape, whose labels have slacks, than what is allowed.
 
     Returns the point, the displacement and the depth of each place.
     """
@@ -73,7 +79,7 @@ def _inside(
         place = places[:, np.minimum(begin + stride // 2, count - 1)[group], point]
         height, nearest = other.tree.signed_distances(np.ascontiguousarray(place.T))
         if stride == 1:
-            deep = -height > allowed[point] + slack[nearest]
+            deep = -height > allowed[point] + slack[other.labels[nearest]]
             return point[deep], group[deep], -height[deep]
         among = np.minimum(begin[group] + np.arange(stride)[:, None], count - 1)
         moved = np.linalg.norm(places[:, among, point] - place[:, None], axis=0).max(axis=0)

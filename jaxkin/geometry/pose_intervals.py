@@ -21,17 +21,20 @@ along the axis of a rotation every point moves alike."""
 
 @dataclass(frozen=True, eq=False)
 class PoseIntervals:
-    """Intervals of displacements x -> R x + s of solid 2 relative to solid 1; interval 0 holds all of them.
+    """Intervals of displacements x -> R x + s of solid 2 relative to solid 1, of one pair of solids or of many.
 
-    With the middle displacement M of an interval, and the point c, for every displacement D of the interval and box 2
-    of middle m and half size h, along each axis of tree 1:
+    The first intervals hold all displacements of a pair each. With the middle displacement M of an interval, and the
+    point c of its pair, for every displacement D of the interval and box 2 of middle m and half size h, along each axis
+    of tree 1:
 
         |(D m - M m)| + (|R| - |R_M|) h <= turning (|m - c| + h) + shifting
 
     and the same for box 1 along the axes of tree 2, displaced by the inverses, about the point M c.
     """
 
-    point: Float[np.ndarray, "3"]
+    pair: Int[np.ndarray, " intervals"]
+    """The pair of solids of each interval."""
+    point: Float[np.ndarray, "3 pairs"]
     """c: the point of solid 2 that moves least."""
     middle: Int[np.ndarray, " intervals"]
     """The displacement half-way through each interval; an interval of one displacement is that displacement."""
@@ -59,46 +62,54 @@ class PoseIntervals:
         """Which intervals hold one displacement only."""
         return self.end - self.begin == 1
 
+    @cached_property
+    def alone(self) -> Int[np.ndarray, " poses"]:
+        """The interval that holds each displacement alone."""
+        (ones,) = np.nonzero(self.is_one)
+        return ones[np.argsort(self.begin[ones])]
+
     def largest(self, values: Float[np.ndarray, " poses"]) -> Float[np.ndarray, " intervals"]:
         """Find the largest value, one a displacement, in each interval."""
-        ranges = np.stack([self.begin, self.end], axis=-1).ravel()
-        return np.maximum.reduceat(np.append(values, -np.inf), ranges)[::2]
+        return _largest(values, self.begin, self.end)
 
 
-def pose_intervals(displaced: Displaced, middle: Float[np.ndarray, "3"]) -> PoseIntervals:
-    """Halve a sequence of displacements of a solid, whose middle is given, level by level."""
+def pose_intervals(
+    displaced: Displaced, first: Int[np.ndarray, " pairs"], middles: Float[np.ndarray, "pairs 3"]
+) -> PoseIntervals:
+    """Halve the displacements of each pair of solids, level by level.
+
+    `first` is the first displacement of each pair, one at least a pair, and `middles` are those of solids 2.
+    """
     rotation, shift = displaced
-    point = _least_moved(rotation, shift, middle)
-    places = rotation @ point + shift
-    begin, end = np.array([0]), np.array([len(shift)])
+    count = len(shift)
+    counts = np.diff(first, append=count)
+    own = np.repeat(np.arange(len(first)), counts)
+    point = _least_moved(rotation, shift, first, own, middles)
+    places = np.einsum("pij,pj->pi", rotation, point[own]) + shift
+    begin, end = first, first + counts
+    every = np.arange(count)  # the displacement half-way through the interval of each one
     found, children, total = [], [], 0
-    while True:
+    while len(begin):
         half = (begin + end) // 2
-        every = np.repeat(half, end - begin)
-        turned = np.abs(rotation - rotation[every])
-        moved = places - places[every]
+        inside = _spread(begin, end)
+        every[inside] = np.repeat(half, end - begin)
+        turned, moved = np.zeros_like(rotation), np.zeros_like(shift)
+        turned[inside] = np.abs(rotation[inside] - rotation[every[inside]])
+        moved[inside] = places[inside] - places[every[inside]]
         back = np.abs(np.einsum("pij,pi->pj", rotation, moved))
-        rows = [np.maximum.reduceat(each, begin) for each in (turned, np.abs(moved), back)]
-        found.append((half, begin, end, *rows))
+        found.append((own[begin], half, begin, end, *(_largest(each, begin, end) for each in (turned, np.abs(moved), back))))
         split = end - begin > 1
-        own = np.arange(total, total + len(begin))
-        total += len(begin)
-        if not split.any():
-            children.append(np.stack([own, own], axis=-1))
-            break
-        # every interval goes on to the next level, those of one displacement as they are
-        first = total + np.cumsum(np.where(split, 2, 1)) - np.where(split, 2, 1)
-        children.append(np.where(split[:, None], np.stack([first, first + 1], axis=-1), own[:, None]))
+        number, total = np.arange(total, total + len(begin)), total + len(begin)
+        later = total + np.cumsum(2 * split) - 2 * split
+        children.append(np.where(split[:, None], np.stack([later, later + 1], axis=-1), number[:, None]))
         begin, end = (
-            np.concatenate([begin[~split], begin[split], half[split]]),
-            np.concatenate([end[~split], half[split], end[split]]),
+            np.stack(pair, axis=-1)[split].ravel() for pair in ((begin, half), (half, end))
         )
-        order = np.argsort(begin)
-        begin, end = begin[order], end[order]
-    half, begin, end, turning, shifting, back = (np.concatenate(each) for each in zip(*found, strict=True))
+    pair, half, begin, end, turning, shifting, back = (np.concatenate(each) for each in zip(*found, strict=True))
     by_row = (rotation[half], shift[half], places[half], turning, shifting, back)
     return PoseIntervals(
-        point,
+        pair,
+        np.ascontiguousarray(point.T),
         half,
         np.concatenate(children),
         begin,
@@ -107,10 +118,25 @@ def pose_intervals(displaced: Displaced, middle: Float[np.ndarray, "3"]) -> Pose
     )
 
 
-def _least_moved(rotation: np.ndarray, shift: np.ndarray, middle: np.ndarray) -> Float[np.ndarray, "3"]:
-    """Find the point whose places are least scattered, by least squares: for a rotation, on its axis."""
-    turned, moved = rotation - rotation[0], shift - shift[0]
-    square = np.einsum("pij,pik->jk", turned, turned)
-    off = np.einsum("pij,pi->j", turned, turned @ middle + moved)
-    size = float(np.trace(square))
-    return middle if size == 0 else middle - np.linalg.solve(square + _REGULAR * size * np.eye(3), off)
+def _largest(values: np.ndarray, begin: np.ndarray, end: np.ndarray) -> np.ndarray:
+    """Find the largest of the values, first axis, of each range."""
+    ranges = np.stack([begin, end], axis=-1).ravel()
+    return np.maximum.reduceat(np.concatenate([values, values[-1:]]), ranges, axis=0)[::2]
+
+
+def _spread(begin: np.ndarray, end: np.ndarray) -> Int[np.ndarray, " _"]:
+    """List the indices in ranges, one range after the other."""
+    counts = end - begin
+    return np.arange(counts.sum()) + np.repeat(begin - np.cumsum(counts) + counts, counts)
+
+
+def _least_moved(
+    rotation: np.ndarray, shift: np.ndarray, first: np.ndarray, own: np.ndarray, middles: np.ndarray
+) -> Float[np.ndarray, "pairs 3"]:
+    """Find for each pair the point whose places are least scattered, by least squares: for a rotation, on its axis."""
+    turned, moved = rotation - rotation[first[own]], shift - shift[first[own]]
+    off = np.einsum("pij,pi->pj", turned, np.einsum("pij,pj->pi", turned, middles[own]) + moved)
+    square = np.add.reduceat(turned.swapaxes(1, 2) @ turned, first)
+    size = np.trace(square, axis1=1, axis2=2)[:, None]
+    regular = square + np.where(size > 0, _REGULAR * size, 1.0)[:, :, None] * np.eye(3)
+    return middles - np.linalg.solve(regular, np.add.reduceat(off, first)[:, :, None])[:, :, 0]

@@ -1,17 +1,16 @@
-"""Find the crossing triangles of two solids for many displacements at once."""
+"""Find the crossing triangles of pairs of solids for many displacements at once."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from jaxkin.geometry.displaced import Displaced
-from jaxkin.geometry.node_boxes import START, NodeBoxes, split
-from jaxkin.geometry.pose_intervals import PoseIntervals, pose_intervals
+from jaxkin.geometry.node_boxes import NodeBoxes, split
+from jaxkin.geometry.solid_pairs import SolidPairs
 from jaxkin.geometry.triangle_distance import triangle_depths
-from jaxkin.geometry.triangle_tree import TriangleTree
 
 _MAX_ITEMS = 1 << 18
 """Items that are split at once: their arrays, some 100 numbers an item, then take 200 MB."""
@@ -20,10 +19,10 @@ _MAX_ITEMS = 1 << 18
 class Crossings(NamedTuple):
     """Triangles that cross."""
 
-    pose: Int[np.ndarray, " _"]
-    """Index of the displacement."""
+    place: Int[np.ndarray, " _"]
+    """Place of the displacement among those of all pairs."""
     first: Int[np.ndarray, " _"]
-    """Triangle of solid 1."""
+    """Triangle of solid 1, in the forest."""
     second: Int[np.ndarray, " _"]
     """Triangle of solid 2."""
 
@@ -33,62 +32,104 @@ class Slack(NamedTuple):
 
     least: float
     """Length by which any two triangles may overlap."""
-    first: Float[np.ndarray, " triangles"]
-    """Length by which each triangle of solid 1 may overlap in addition."""
-    second: Float[np.ndarray, " triangles"]
+    first: Float[np.ndarray, " labels"]
+    """Length by which triangles of each label of solid 1 may overlap in addition."""
+    second: Float[np.ndarray, " labels"]
     """The same of solid 2."""
     ignored: Bool[np.ndarray, "labels labels"]
     """Pairs of labels, of solid 1 and of solid 2, whose triangles are not compared."""
 
+    def exchanged(self) -> Slack:
+        """Say the same with solid 2 first."""
+        return Slack(self.least, self.second, self.first, self.ignored.T)
 
-def crossings(one: TriangleTree, other: TriangleTree, displaced: Displaced, slack: Slack) -> Crossings:
-    """Find the pairs of triangles that cross by more than a slack, for all displacements."""
-    intervals = pose_intervals(displaced, (other.low[0] + other.high[0]) / 2)
-    alone1, alone2 = (np.asarray(np.all(slack.ignored, axis=axis)) for axis in (1, 0))
-    stack, found = [np.array(START)], [np.zeros((0, 3), int)]
+
+class _Slacks:
+    """The slacks of many pairs: rows of labels, and matrices of those that ignore some, one behind the other."""
+
+    def __init__(self, slacks: Sequence[Slack]):
+        rows = [row for slack in slacks for row in (slack.first, slack.second)]
+        self.length = np.concatenate(rows)
+        self.begin = np.cumsum([0, *map(len, rows)])[:-1].reshape(-1, 2)
+        some = [slack.ignored for slack in slacks if slack.ignored.any()]
+        self.width = np.array([len(slack.second) for slack in slacks])
+        self.ignores = np.array([bool(slack.ignored.any()) for slack in slacks])
+        self.ignored = np.concatenate([np.zeros(0, bool), *(each.ravel() for each in some)])
+        self.matrix = np.zeros(len(slacks), int)
+        self.matrix[self.ignores] = np.cumsum([0, *(each.size for each in some)])[:-1]
+        self.alone = np.zeros(len(self.length), bool)
+        for pair in np.flatnonzero(self.ignores):
+            for side, row in enumerate((np.all(slacks[pair].ignored, axis=1), np.all(slacks[pair].ignored, axis=0))):
+                self.alone[self.begin[pair, side] : self.begin[pair, side] + len(row)] = row
+
+    def compared(self, pair: np.ndarray, labels: np.ndarray) -> Bool[np.ndarray, " items"]:
+        """Tell which nodes are compared, by pairs and by the labels (items, 2) of their triangles, -1 where several."""
+        found = np.ones(len(pair), bool)
+        (some,) = np.nonzero(self.ignores[pair])
+        pair, labels = pair[some], labels[some]
+        known = labels >= 0
+        alone = np.any(self.alone[self.begin[pair] + labels] & known, axis=1)
+        both = np.flatnonzero(known.all(axis=1) & ~alone)
+        alone[both] = self.ignored[
+            self.matrix[pair[both]] + labels[both, 0] * self.width[pair[both]] + labels[both, 1]
+        ]
+        found[some] = ~alone
+        return found
+
+
+def crossings(pairs: SolidPairs, slacks: Sequence[Slack]) -> Crossings:
+    """Find the triangles that cross by more than the slack of their pair, for all displacements.
+
+    The least overlap is the same for all pairs.
+    """
+    tree, intervals, tables, least = pairs.tree, pairs.intervals, _Slacks(slacks), slacks[0].least
+    stack, found = [pairs.start()], [np.zeros((0, 3), int)]
     while stack:
         items = stack.pop()
         if len(items) > _MAX_ITEMS:
             stack += np.array_split(items, len(items) // _MAX_ITEMS + 1)
             continue
-        label1, label2 = one.label[items[:, 1]], other.label[items[:, 2]]
-        known1, known2 = label1 >= 0, label2 >= 0
-        ignored = slack.ignored[label1, label2] & known1 & known2
-        items = items[~(ignored | (alone1[label1] & known1) | (alone2[label2] & known2))]
-        items, in_time = _overlap(one, other, intervals, items, slack.least)
-        done = intervals.is_one[items[:, 0]] & one.is_leaf[items[:, 1]] & other.is_leaf[items[:, 2]]
-        pairs = items[done]
-        pairs[:, 0] = intervals.middle[pairs[:, 0]]
-        found.append(_crossing(one, other, displaced, pairs, slack))
+        items = items[tables.compared(intervals.pair[items[:, 0]], tree.label[items[:, 1:]])]
+        items, in_time = _overlap(pairs, items, least)
+        done = intervals.is_one[items[:, 0]] & np.all(tree.is_leaf[items[:, 1:]], axis=1)
+        found.append(_crossing(pairs, items[done], tables, least))
         if not done.all():
-            stack.append(split(one, other, intervals, items[~done], in_time[~done]))
+            stack.append(split(pairs, items[~done], in_time[~done]))
     return Crossings(*np.concatenate(found).T)
 
 
-def _crossing(
-    one: TriangleTree, other: TriangleTree, displaced: Displaced, pairs: np.ndarray, slack: Slack
-) -> np.ndarray:
-    """Keep the pairs of leaves whose triangles cross; leaves are replaced by triangles."""
-    pose, first, second = pairs[:, 0], one.triangle[pairs[:, 1]], other.triangle[pairs[:, 2]]
-    if not len(pose):
-        return pairs
-    depth = slack.least + slack.first[first] + slack.second[second]
-    found = triangle_depths(one.triangles[first], displaced.of(pose, other.triangles[second]))
-    return np.stack([pose, first, second], axis=-1)[found > depth]
+def _crossing(pairs: SolidPairs, leaves: np.ndarray, slacks: _Slacks, least: float) -> np.ndarray:
+    """Keep the items of single triangles that cross, as places and triangles."""
+    if not len(leaves):
+        return leaves
+    tree, pair = pairs.tree, pairs.intervals.pair[leaves[:, 0]]
+    place, (first, second) = pairs.intervals.middle[leaves[:, 0]], tree.triangle[leaves[:, 1:]].T
+    allowed = slacks.length[slacks.begin[pair] + tree.label[leaves[:, 1:]]].sum(axis=1)
+    found = triangle_depths(tree.triangles[first], pairs.displaced.of(place, tree.triangles[second]))
+    return np.stack([place, first, second], axis=-1)[found > least + allowed]
 
 
-def _overlap(
-    one: TriangleTree, other: TriangleTree, intervals: PoseIntervals, items: np.ndarray, depth: float
-) -> tuple[np.ndarray, np.ndarray]:
+def _overlap(pairs: SolidPairs, items: np.ndarray, depth: float) -> tuple[np.ndarray, np.ndarray]:
     """Keep the items whose boxes may overlap by more than a depth along all axes; whether to go on in time."""
-    boxes = NodeBoxes.of(one, other, intervals, items)
+    boxes = NodeBoxes.of(pairs, items)
     along1 = boxes.along1()
     near = np.all(along1 - boxes.swept1 < -depth, axis=0)
     boxes, items, along1 = boxes.at(near), items[near], along1[:, near]
     along2 = boxes.along2()
     near = np.all(along2 - boxes.swept2 < -depth, axis=0)
     boxes, items = boxes.at(near), items[near]
-    # what the middle displacement leaves out is only let in by the width of the interval
     off = ~np.all((along1[:, near] < -depth) & (along2[:, near] < -depth), axis=0)
-    leaves = one.is_leaf[items[:, 1]] & other.is_leaf[items[:, 2]]
-    return items, ~intervals.is_one[items[:, 0]] & (leaves | off | (boxes.swept() > boxes.size()))
+    own = boxes.along_own(pairs, items)
+    near = np.all([apart - swept < -depth for apart, swept in own], axis=(0, 1))
+    off = (off | ~np.all([apart < -depth for apart, _ in own], axis=(0, 1)))[near]
+    boxes, items = boxes.at(near), items[near]
+    # what the middle displacement leaves out is only let in by the width of the interval
+    leaves = np.all(pairs.tree.is_leaf[items[:, 1:]], axis=1)
+    return items, ~pairs.intervals.is_one[items[:, 0]] & (leaves | off | (boxes.swept() > boxes.size()))
+
+
+def may_overlap(pairs: SolidPairs, depth: float) -> Bool[np.ndarray, " places"]:
+    """Tell at which displacements the boxes of two solids overlap by more than a depth along all their axes."""
+    places = np.arange(len(pairs.pair))
+    boxes = NodeBoxes.of(pairs, pairs.alone(places))
+    return np.all((boxes.along1() < -depth) & (boxes.along2() < -depth), axis=0)

@@ -1,15 +1,13 @@
-"""Measure the distance of two solids for many displacements at once."""
+"""Measure the distances of pairs of solids for many displacements at once."""
 
 from __future__ import annotations
 
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.geometry.displaced import Displaced
-from jaxkin.geometry.node_boxes import START, NodeBoxes, split
-from jaxkin.geometry.pose_intervals import pose_intervals
+from jaxkin.geometry.node_boxes import NodeBoxes, lengths, split
+from jaxkin.geometry.solid_pairs import SolidPairs
 from jaxkin.geometry.triangle_distance import triangle_distances
-from jaxkin.geometry.triangle_tree import TriangleTree
 
 _STRIDE = 8
 """Of so many successive displacements one is searched alone; its nearest triangles are nearly so at the others."""
@@ -30,33 +28,33 @@ _NEARER = 1e-9
 faces are equally near."""
 
 
-def distances(
-    one: TriangleTree, other: TriangleTree, displaced: Displaced, within: float
-) -> Float[np.ndarray, " poses"]:
+def distances(pairs: SolidPairs, within: float) -> Float[np.ndarray, " places"]:
     """Measure the distance of the surfaces of two solids, 0 where they cross; infinite where it exceeds `within`.
 
     At some of the displacements few items, those whose boxes are nearest, lead to triangles that are nearly the nearest
     ones. They bound the distance there and at the displacements between; then all are searched that may be nearer.
     """
-    search = _Search(one, other, displaced, within)
-    sampled = np.arange(0, len(displaced.shift), _STRIDE)
-    search.follow(search.alone(sampled), _BEAM)
-    nearest = search.nearest[sampled]
-    for later in (0, 1):  # those of the sampled displacement before and of the one after
-        of = np.minimum(np.arange(len(displaced.shift)) // _STRIDE + later, len(sampled) - 1)
+    search = _Search(pairs, within)
+    places = np.arange(len(pairs.pair))
+    begin = pairs.begin[pairs.pair]
+    before = places - (places - begin) % _STRIDE
+    sampled = np.unique(before)
+    search.follow(pairs.alone(sampled), _BEAM)
+    nearest = search.nearest.copy()
+    last = np.append(pairs.begin[1:], len(places))[pairs.pair] - 1
+    for of in (before, np.where(before + _STRIDE > last, before, before + _STRIDE)):
         (known,) = np.nonzero(nearest[of, 0] >= 0)
         search.measure(known, *nearest[of[known]].T)
-    search.follow(np.array(START), None)
+    search.follow(pairs.start(), None)
     return search.found
 
 
 class _Search:
     """The least distance of each displacement that has been found so far."""
 
-    def __init__(self, one: TriangleTree, other: TriangleTree, displaced: Displaced, within: float):
-        self.one, self.other, self.displaced = one, other, displaced
-        self.intervals = pose_intervals(displaced, (other.low[0] + other.high[0]) / 2)
-        count = len(displaced.shift)
+    def __init__(self, pairs: SolidPairs, within: float):
+        self.pairs = pairs
+        count = len(pairs.pair)
         self.found = np.full(count, np.inf)
         """Infinite where it is more than the limit that was asked for."""
         self.limit = np.full(count, np.nextafter(within, np.inf))
@@ -64,20 +62,13 @@ class _Search:
         self.nearest = np.full((count, 2), -1)
         """The triangles that are nearest; -1 where none is near."""
 
-    def alone(self, poses: np.ndarray) -> np.ndarray:
-        """Make items of all triangles at single displacements."""
-        (ones,) = np.nonzero(self.intervals.is_one)
-        which = np.empty(len(self.limit), int)
-        which[self.intervals.begin[ones]] = ones
-        return np.stack([which[poses], np.zeros_like(poses), np.zeros_like(poses)], axis=-1)
-
     def follow(self, items: np.ndarray, beam: int | None) -> None:
         """Split items until they are single triangles that may be nearer, and measure these.
 
         Of too many items those of least bounds are followed to their triangles before the others: what these measure
         leaves fewer of the others.
         """
-        one, other, intervals = self.one, self.other, self.intervals
+        tree, intervals = self.pairs.tree, self.pairs.intervals
         stack = [items]
         while stack:
             items = stack.pop()
@@ -88,7 +79,7 @@ class _Search:
             if beam is not None:
                 near[near] = _rank(items[near, 0], bound[near]) < beam
             items, bound, in_time = items[near], bound[near], in_time[near] > 0
-            leaves, single = one.is_leaf[items[:, 1]] & other.is_leaf[items[:, 2]], intervals.is_one[items[:, 0]]
+            leaves, single = np.all(tree.is_leaf[items[:, 1:]], axis=1), intervals.is_one[items[:, 0]]
             done = leaves & single
             self._measure_leaves(items[done], bound[done])
             items, bound, in_time = items[~done], bound[~done], (~single & (leaves | in_time))[~done]
@@ -98,38 +89,40 @@ class _Search:
                 items, in_time = items[order], in_time[order]
             for some, halved in zip(np.array_split(items, count), np.array_split(in_time, count), strict=True):
                 if len(some):
-                    stack.append(split(one, other, intervals, some, halved))
+                    stack.append(split(self.pairs, some, halved))
 
-    def _measure_leaves(self, pairs: np.ndarray, bound: np.ndarray) -> None:
+    def _measure_leaves(self, leaves: np.ndarray, bound: np.ndarray) -> None:
         """Measure single triangles at single displacements, items with their bounds, that may be nearer."""
-        one, other = self.one, self.other
-        pose = self.intervals.middle[pairs[:, 0]]
-        first, second = one.triangle[pairs[:, 1]], other.triangle[pairs[:, 2]]
-        rank = _rank(pose, bound)
+        place = self.pairs.intervals.middle[leaves[:, 0]]
+        first, second = self.pairs.tree.triangle[leaves[:, 1:]].T
+        rank = _rank(place, bound)
         begin, size = 0, 1
         # the most promising of each displacement first: they lower the limit for the others
         while begin <= rank.max(initial=-1):
-            now = (rank >= begin) & (rank < begin + size) & (bound < self.limit[pose] * (1 - _NEARER))
-            self.measure(pose[now], first[now], second[now])
+            now = (rank >= begin) & (rank < begin + size) & (bound < self.limit[place] * (1 - _NEARER))
+            self.measure(place[now], first[now], second[now])
             begin, size = begin + size, 4 * size
 
     def _bounds(self, items: np.ndarray, limit: np.ndarray) -> Float[np.ndarray, "2 items"]:
         """Bound the distances of items from below; and tell, by 1, which to halve in time rather than in space."""
-        boxes = NodeBoxes.of(self.one, self.other, self.intervals, items)
-        bound, bound_in_middle = boxes.distances()
+        boxes = NodeBoxes.of(self.pairs, items)
+        bounds = boxes.distances()
         most = limit[items[:, 0]]
+        (near,) = np.nonzero(bounds[0] < most)
+        bounds[:, near] = np.maximum(bounds[:, near], lengths(boxes.at(near).along_own(self.pairs, items[near])))
         # what the middle displacement leaves out is only let in by the width of the interval
-        return np.stack([bound, (bound_in_middle >= most) | (boxes.swept() > _SWEPT * most)])
+        return np.stack([bounds[0], (bounds[1] >= most) | (boxes.swept() > _SWEPT * most)])
 
-    def measure(self, pose: np.ndarray, first: np.ndarray, second: np.ndarray) -> None:
+    def measure(self, place: np.ndarray, first: np.ndarray, second: np.ndarray) -> None:
         """Measure pairs of triangles, and keep the nearest of each displacement."""
-        apart = triangle_distances(self.one.triangles[first], self.displaced.of(pose, self.other.triangles[second]))
-        order = np.lexsort((apart, pose))
-        order = order[np.diff(pose[order], prepend=-1) > 0]
-        order = order[apart[order] < self.limit[pose[order]]]
-        pose = pose[order]
-        self.found[pose] = self.limit[pose] = apart[order]
-        self.nearest[pose] = np.stack([first[order], second[order]], axis=-1)
+        triangles = self.pairs.tree.triangles
+        apart = triangle_distances(triangles[first], self.pairs.displaced.of(place, triangles[second]))
+        order = np.lexsort((apart, place))
+        order = order[np.diff(place[order], prepend=-1) > 0]
+        order = order[apart[order] < self.limit[place[order]]]
+        place = place[order]
+        self.found[place] = self.limit[place] = apart[order]
+        self.nearest[place] = np.stack([first[order], second[order]], axis=-1)
 
 
 def _rank(groups: np.ndarray, bound: np.ndarray) -> np.ndarray:

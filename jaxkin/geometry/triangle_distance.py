@@ -1,7 +1,8 @@
 """Measure distances between triangles and points in space, many pairs at once, compiled, in float64.
 
 All functions take arrays of numpy with the pairs as first axis. They are evaluated in batches of few sizes, so that
-each is compiled a few times only.
+each is compiled a few times only. What is compiled has the coordinates as first axis and the pairs as last one: every
+operation is then one of long rows.
 """
 
 from __future__ import annotations
@@ -17,9 +18,14 @@ from jaxkin.geometry.triangles import Triangles
 
 Points = Float[np.ndarray, "_ 3"]
 
-_BATCHES = (1 << 15, 1 << 12, 1 << 9)
-"""Pairs that are evaluated at once, each size compiled once: intermediate results of the largest, some 300 numbers a
-pair, stay below 100 MB, and fewer than the smallest take no less time."""
+_BATCHES = (1 << 11, 1 << 8)
+"""Pairs that are evaluated at once, each size compiled once: intermediate results of the larger, some 300 numbers a
+pair, stay near a core, and fewer than the smaller take no less time. The distance of 32768 pairs at once took twice as
+long as that of 2048, each."""
+_FEW = 1 << 9
+"""Pairs of boxes that are measured at first where the least of many distances is looked for."""
+_MANY = 1 << 15
+"""The most of them at once."""
 _PARALLEL = 1e-24
 """Square of the sine of an angle below which two segments count as parallel, far below any angle of a solid."""
 _DIRECTION = 1e-9
@@ -40,11 +46,11 @@ def set_distance(first: Triangles, second: Triangles) -> float:
     apart = np.maximum(low1[:, None] - high2[None], low2[None] - high1[:, None])
     bounds = np.linalg.norm(np.maximum(apart, 0.0), axis=-1).ravel()
     order = np.argsort(bounds, kind="stable")
-    least, start, count = np.inf, 0, _BATCHES[-1]
+    least, start, count = np.inf, 0, _FEW
     while start < len(order) and bounds[order[start]] < least:
         one, other = np.divmod(order[start : start + count], len(second))
         least = min(least, float(triangle_distances(first[one], second[other]).min()))
-        start, count = start + count, min(4 * count, _BATCHES[0])
+        start, count = start + count, min(4 * count, _MANY)
     return least
 
 
@@ -79,38 +85,51 @@ def _in_batches(function: Callable, *arrays: np.ndarray):
     with jax.enable_x64(True):
         while start < count or not found:
             size = next((size for size in _BATCHES if size <= count - start), _BATCHES[-1])
-            pieces = [np.asarray(array[start : start + size], float) for array in arrays]
-            length = len(pieces[0])
-            if length < size:
-                pieces = [np.concatenate([each, np.zeros((size - length, *each.shape[1:]))]) for each in pieces]
+            length = min(size, count - start)
+            pieces = [np.zeros((*array.shape[:0:-1], size)) for array in arrays]
+            for piece, array in zip(pieces, arrays, strict=True):
+                piece[..., :length] = array[start : start + length].T
             result = function(*pieces)
-            found.append(jax.tree.map(lambda each, length=length: np.asarray(each)[:length], result))
+            found.append(jax.tree.map(lambda each, length=length: np.asarray(each)[..., :length], result))
             start += size
-    return jax.tree.map(lambda *pieces: np.concatenate(pieces), *found)
+    return jax.tree.map(lambda *pieces: np.concatenate(pieces, axis=-1).T, *found)
+
+
+# Vectors are (3, ..., pairs), triangles (3, corners, pairs).
 
 
 def _dot(a: Array, b: Array) -> Array:
-    return jnp.sum(a * b, axis=-1)
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def _cross(a: Array, b: Array) -> Array:
+    return jnp.stack([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
+
+
+def _edges(triangle: Array) -> Array:
+    """Compute the vectors from each corner to the next."""
+    return jnp.roll(triangle, -1, axis=1) - triangle
 
 
 def _point_segment(point: Array, start: Array, edge: Array) -> Array:
     """Compute the square of the distance of a point to a segment from `start` to `start + edge`."""
     square = _dot(edge, edge)
     along = jnp.clip(_dot(point - start, edge) / jnp.where(square > 0, square, 1.0), 0.0, 1.0)
-    off = point - start - along[..., None] * edge
+    off = point - start - along * edge
     return _dot(off, off)
 
 
-def _point_triangle(point: Array, triangle: Array) -> Array:
-    """Compute the square of the distance of a point to a triangle: to its plane where the foot is inside, else to an
-    edge."""
-    edges = jnp.roll(triangle, -1, axis=-2) - triangle
-    normal = jnp.cross(edges[..., 0, :], edges[..., 1, :])
+def _point_triangle(points: Array, triangle: Array) -> Array:
+    """Compute the squares of the distances of points, (3, points, pairs), to a triangle: to its plane where the foot is
+    inside, else to an edge."""
+    edges = _edges(triangle)
+    normal = _cross(edges[:, 0], edges[:, 1])
     square = _dot(normal, normal)
-    off = point[..., None, :] - triangle
-    inside = jnp.all(_dot(jnp.cross(normal[..., None, :], edges), off) >= 0, axis=-1) & (square > 0)
-    height = _dot(off[..., 0, :], normal) ** 2 / jnp.where(square > 0, square, 1.0)
-    return jnp.where(inside, height, jnp.min(_point_segment(point[..., None, :], triangle, edges), axis=-1))
+    off = points[:, :, None] - triangle[:, None]
+    inside = jnp.all(_dot(_cross(normal[:, None], edges)[:, None], off) >= 0, axis=1) & (square > 0)
+    height = _dot(off[:, :, 0], normal[:, None]) ** 2 / jnp.where(square > 0, square, 1.0)
+    to_edges = jnp.min(_point_segment(points[:, :, None], triangle[:, None], edges[:, None]), axis=1)
+    return jnp.where(inside, height, to_edges)
 
 
 def _segments(p: Array, d: Array, q: Array, e: Array) -> Array:
@@ -126,64 +145,59 @@ def _segments(p: Array, d: Array, q: Array, e: Array) -> Array:
     s = (_dot(off, d) * c - _dot(off, e) * b) / over
     t = (_dot(off, d) * b - _dot(off, e) * a) / over
     inside = skew & (s >= 0) & (s <= 1) & (t >= 0) & (t <= 1)
-    gap = off + t[..., None] * e - s[..., None] * d
+    gap = off + t * e - s * d
     return jnp.where(inside, _dot(gap, gap), jnp.inf)
 
 
 @jax.jit
 def _edge_places(one: Array, other: Array) -> Array:
-    edges = jnp.roll(other, -1, axis=-2) - other
-    normal = jnp.cross(edges[..., 0, :], edges[..., 1, :])
-    height = _dot(one - other[..., :1, :], normal[..., None, :])
-    height2 = jnp.roll(height, -1, axis=-1)
+    edges = _edges(other)
+    normal = _cross(edges[:, 0], edges[:, 1])
+    height = _dot(one - other[:, :1], normal[:, None])
+    height2 = jnp.roll(height, -1, axis=0)
     opposite = height * height2 < 0
     place = height / jnp.where(opposite, height - height2, 1.0)
-    points = one + place[..., None] * (jnp.roll(one, -1, axis=-2) - one)
-    off = points[..., :, None, :] - other[..., None, :, :]
-    inside = jnp.all(_dot(jnp.cross(normal[..., None, :], edges)[..., None, :, :], off) >= 0, axis=-1)
+    off = (one + place * _edges(one))[:, :, None] - other[:, None]
+    inside = jnp.all(_dot(_cross(normal[:, None], edges)[:, None], off) >= 0, axis=1)
     return jnp.where(opposite & inside, place, jnp.nan)
 
 
 def _pierces(one: Array, other: Array) -> Array:
     """Tell whether an edge of one triangle goes through another triangle."""
-    return jnp.any(~jnp.isnan(_edge_places(one, other)), axis=-1)
+    return jnp.any(~jnp.isnan(_edge_places(one, other)), axis=0)
 
 
 @jax.jit
 def _triangle_distance(one: Array, other: Array) -> Array:
-    edges1, edges2 = jnp.roll(one, -1, axis=-2) - one, jnp.roll(other, -1, axis=-2) - other
-    corners = jnp.minimum(
-        jnp.min(_point_triangle(one, other[..., None, :, :]), axis=-1),
-        jnp.min(_point_triangle(other, one[..., None, :, :]), axis=-1),
-    )
-    between = _segments(one[..., :, None, :], edges1[..., :, None, :], other[..., None, :, :], edges2[..., None, :, :])
-    square = jnp.minimum(corners, jnp.min(between, axis=(-2, -1)))
+    edges1, edges2 = _edges(one), _edges(other)
+    corners = jnp.min(jnp.concatenate([_point_triangle(one, other), _point_triangle(other, one)]), axis=0)
+    between = _segments(one[:, :, None], edges1[:, :, None], other[:, None], edges2[:, None])
+    square = jnp.minimum(corners, jnp.min(between, axis=(0, 1)))
     return jnp.where(_pierces(one, other) | _pierces(other, one), 0.0, jnp.sqrt(square))
 
 
 @jax.jit
 def _triangle_depth(one: Array, other: Array) -> Array:
-    edges1, edges2 = jnp.roll(one, -1, axis=-2) - one, jnp.roll(other, -1, axis=-2) - other
-    normal1, normal2 = (jnp.cross(edges[..., :1, :], edges[..., 1:2, :]) for edges in (edges1, edges2))
-    across = jnp.cross(edges1[..., :, None, :], edges2[..., None, :, :])
-    across = across.reshape(*across.shape[:-3], 9, 3)
-    sides = [jnp.cross(normal1, edges1), jnp.cross(normal2, edges2)]
-    directions = jnp.concatenate([normal1, normal2, *sides, across], axis=-2)
+    edges1, edges2 = _edges(one), _edges(other)
+    normal1, normal2 = (_cross(edges[:, 0], edges[:, 1])[:, None] for edges in (edges1, edges2))
+    across = _cross(edges1[:, :, None], edges2[:, None])
+    across = across.reshape(3, 9, across.shape[-1])
+    sides = [_cross(normal1, edges1), _cross(normal2, edges2)]
+    directions = jnp.concatenate([normal1, normal2, *sides, across], axis=1)
     length = jnp.sqrt(_dot(directions, directions))
-    size1, size2 = (jnp.sqrt(jnp.max(_dot(edges, edges), axis=-1)) for edges in (edges1, edges2))
+    size1, size2 = (jnp.sqrt(jnp.max(_dot(edges, edges), axis=0)) for edges in (edges1, edges2))
     scales = [size1**2, size2**2, *[size1**3] * 3, *[size2**3] * 3, *[size1 * size2] * 9]
-    exists = length > _DIRECTION * jnp.stack(scales, axis=-1)
-    directions = directions / jnp.where(exists, length, 1.0)[..., None]
-    origin = one[..., :1, :]
-    along1 = jnp.einsum("...ij,...kj->...ik", directions, one - origin)
-    along2 = jnp.einsum("...ij,...kj->...ik", directions, other - origin)
-    overlap = jnp.minimum(along1.max(axis=-1) - along2.min(axis=-1), along2.max(axis=-1) - along1.min(axis=-1))
-    return jnp.min(jnp.where(exists, overlap, jnp.inf), axis=-1)
+    exists = length > _DIRECTION * jnp.stack(scales)
+    directions = directions / jnp.where(exists, length, 1.0)
+    along1, along2 = (_dot(directions[:, :, None], (each - one[:, :1])[:, None]) for each in (one, other))
+    overlap = jnp.minimum(along1.max(axis=1) - along2.min(axis=1), along2.max(axis=1) - along1.min(axis=1))
+    return jnp.min(jnp.where(exists, overlap, jnp.inf), axis=0)
 
 
 @jax.jit
 def _point_distance(point: Array, triangle: Array) -> tuple[Array, Array]:
-    normal = jnp.cross(triangle[..., 1, :] - triangle[..., 0, :], triangle[..., 2, :] - triangle[..., 0, :])
+    edges = _edges(triangle)
+    normal = _cross(edges[:, 0], edges[:, 1])
     length = jnp.sqrt(_dot(normal, normal))
-    height = _dot(point - triangle[..., 0, :], normal) / jnp.where(length > 0, length, 1.0)
-    return jnp.sqrt(_point_triangle(point, triangle)), height
+    height = _dot(point - triangle[:, 0], normal) / jnp.where(length > 0, length, 1.0)
+    return jnp.sqrt(_point_triangle(point[:, None], triangle)[0]), height

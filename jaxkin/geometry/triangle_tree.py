@@ -27,6 +27,8 @@ _LEVEL_DISTANCE = 1e-9
 side the point lies: rounding, where the nearest place is an edge that several triangles share."""
 _ROUNDING = 1e-12
 """Share of the size of a solid below which two lengths are one: rounding of coordinates and of their products."""
+_SQUARINGS = 4
+"""How often a matrix of edges is squared to find their main direction: a bound needs it to a few degrees only."""
 _MAX_POINTS = 1 << 14
 """Points whose distances are measured at once: each is compared with some 60 boxes at a time, 100 MB in all."""
 
@@ -47,6 +49,14 @@ class TriangleTree:
     """The first triangle of each node, the only one of a leaf."""
     label: Int[np.ndarray, " nodes"]
     """The label that all triangles of a node have; -1 where they have several."""
+    own_axes: Float[np.ndarray, "3 3 nodes"]
+    """Axes of each node, in rows: along its longest edges in its mean plane, across them, and normal to it. Boxes of
+    what is slanted to the axes of the solid, such as long thin triangles that fan out over a face, are thick; those
+    along their own axes are thin."""
+    own_middles: Float[np.ndarray, "3 nodes"]
+    """The middle of the box along its own axes, along these, from the middle of the other box."""
+    own_halves: Float[np.ndarray, "3 nodes"]
+    """Half the size of that box."""
 
     @cached_property
     def is_leaf(self) -> np.ndarray:
@@ -123,7 +133,7 @@ def triangle_tree(triangles: Triangles, labels: Int[np.ndarray, " triangles"]) -
     order, ids = np.arange(count), np.array([0])
     begin, end = np.zeros(2 * count - 1, int), np.full(2 * count - 1, count)
     children = np.repeat(np.arange(2 * count - 1)[:, None], 2, axis=1)
-    total = 1
+    total, levels = 1, [ids]
     while len(ids) < count:
         starts, ends = begin[ids], end[ids]
         here = label[order]
@@ -142,6 +152,7 @@ def triangle_tree(triangles: Triangles, labels: Int[np.ndarray, " triangles"]) -
             np.stack(pair, axis=-1) for pair in ((starts[split], cuts[split]), (cuts[split], ends[split]))
         )
         total += new.size
+        levels.append(new.ravel())
         ids = np.repeat(ids, np.where(split, 2, 1))
         ids[np.repeat(split, np.where(split, 2, 1))] = new.ravel()
     ranges = np.stack([begin, end], axis=-1).ravel()
@@ -151,7 +162,56 @@ def triangle_tree(triangles: Triangles, labels: Int[np.ndarray, " triangles"]) -
     first, last = (
         reduce.reduceat(np.append(labels[order], labels[order][-1]), ranges)[::2] for reduce in (np.minimum, np.maximum)
     )
-    return TriangleTree(triangles, low, high, children, order[begin], np.where(first == last, first, -1))
+    label = np.where(first == last, first, -1)
+    own = _own_boxes(triangles[order], begin, end, levels, (low + high) / 2)
+    return TriangleTree(triangles, low, high, children, order[begin], label, *own)
+
+
+def _own_boxes(
+    triangles: Triangles, begin: np.ndarray, end: np.ndarray, levels: list[np.ndarray], middles: Points
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Find axes of nodes, ranges of triangles, and the middles and halves of their boxes along these axes.
+
+    `levels` are the nodes of each level, and `middles` those of the boxes along the axes of the solid.
+    """
+    areas = double_areas(triangles)
+    edges = np.roll(triangles, -1, axis=1) - triangles
+    products = edges.swapaxes(1, 2) @ edges
+    axes = np.zeros((len(middles), 3, 3))
+    low, high = np.zeros_like(middles), np.zeros_like(middles)
+    for nodes in levels:
+        counts = end[nodes] - begin[nodes]
+        first = np.cumsum(counts) - counts
+        own = np.repeat(np.arange(len(nodes)), counts)
+        held = np.arange(len(own)) + (begin[nodes] - first)[own]
+        axes[nodes] = _axes_along(np.add.reduceat(areas[held], first), np.add.reduceat(products[held], first))
+        off = triangles[held] - middles[nodes][own, None]
+        places = off @ axes[nodes][own].swapaxes(1, 2)
+        low[nodes] = np.minimum.reduceat(places.min(axis=1), first)
+        high[nodes] = np.maximum.reduceat(places.max(axis=1), first)
+    return (
+        np.ascontiguousarray(np.moveaxis(axes, 0, -1)),
+        np.ascontiguousarray((low + high).T) / 2,
+        np.ascontiguousarray((high - low).T) / 2,
+    )
+
+
+def _axes_along(normals: Points, products: Float[np.ndarray, "_ 3 3"]) -> Float[np.ndarray, "_ 3 3"]:
+    """Choose axes, in rows, by sums of normals, and of products of edges with themselves: along the longest edges."""
+    length = np.linalg.norm(normals, axis=1, keepdims=True)
+    z = np.where(length > 0, normals / np.where(length > 0, length, 1.0), [0.0, 0.0, 1.0])
+    for _ in range(_SQUARINGS):  # the largest eigenvalue comes to outweigh the others
+        products = products @ products
+        trace = np.trace(products, axis1=1, axis2=2)[:, None, None]
+        products = products / np.where(trace > 0, trace, 1.0)
+    rows = np.arange(len(z))
+    along = products[rows, np.argmax(np.einsum("nii->ni", products), axis=1)]
+    along = along - np.sum(along * z, axis=1, keepdims=True) * z
+    length = np.linalg.norm(along, axis=1, keepdims=True)
+    across = np.cross(z, np.eye(3)[np.argmin(np.abs(z), axis=1)])
+    x = np.where(length > _SAME_DIRECTION, along, across)
+    x = x / np.linalg.norm(x, axis=1, keepdims=True)
+    return np.stack([x, np.cross(z, x), z], axis=1)
 
 
 def _face_ends(label: np.ndarray, starts: np.ndarray, ends: np.ndarray, cuts: np.ndarray) -> np.ndarray:
