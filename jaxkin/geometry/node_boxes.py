@@ -85,6 +85,20 @@ class NodeBoxes(NamedTuple):
             found.append((apart, _times(np.abs(axes), swept)))
         return found
 
+    def along(
+        self, direction: Float[np.ndarray, "3 items"], pairs: SolidPairs, items: np.ndarray
+    ) -> tuple[Float[np.ndarray, " items"], Float[np.ndarray, " items"]]:
+        """Measure how far box 2 is ahead of box 1 along a direction in the axes of solid 1, by their own axes.
+
+        Returns this in the middle of the interval, and by how much less it may be within.
+        """
+        tree, ahead = pairs.tree, _dot(direction, self.between)
+        own = (items[:, 1], direction, -1.0), (items[:, 2], _times(self.turn.swapaxes(0, 1), direction), 1.0)
+        for node, seen, sign in own:
+            seen = _times(tree.own_axes[:, :, node], seen)
+            ahead += sign * _dot(seen, tree.own_middles[:, node]) - _dot(np.abs(seen), tree.own_halves[:, node])
+        return ahead, _dot(np.abs(direction), self.swept1)
+
     def at(self, some: np.ndarray) -> NodeBoxes:
         """Choose some of the items."""
         return NodeBoxes(*(each[..., some] for each in self))
@@ -118,17 +132,21 @@ def _dot(one: np.ndarray, other: np.ndarray) -> np.ndarray:
 
 
 def split(pairs: SolidPairs, items: np.ndarray, in_time: np.ndarray) -> np.ndarray:
-    """Replace each item by those of the halves of its interval, or else by the pairs of children of its nodes.
+    """Replace each item by those of the halves of its interval, or else by those of the children of its larger node.
 
-    Leaves and single displacements stay as they are.
+    Nodes of one size at a time: many small ones of the one solid would each be compared with all of the other that is
+    not split yet. Leaves and single displacements stay as they are.
     """
     tree = pairs.tree
     halves = pairs.intervals.children[items[in_time, 0]]
     found = [np.column_stack([half, items[in_time, 1:]]) for half in halves.T]
     items = items[~in_time]
-    first, second = tree.children[items[:, 1]], tree.children[items[:, 2]]
-    split1, split2 = ~tree.is_leaf[items[:, 1]], ~tree.is_leaf[items[:, 2]]
-    for i, j in ((0, 0), (0, 1), (1, 0), (1, 1)):
-        keep = (split1 | (i == 0)) & (split2 | (j == 0))
-        found.append(np.column_stack([items[keep, 0], first[keep, i], second[keep, j]]))
+    side = 1 + np.argmax(tree.sizes[items[:, 1:]], axis=1)
+    rows = np.arange(len(items))
+    node = items[rows, side]
+    for k in (0, 1):
+        some = slice(None) if k == 0 else ~tree.is_leaf[node]
+        child = items[some].copy()
+        child[np.arange(len(child)), side[some]] = tree.children[node[some], k]
+        found.append(child)
     return np.concatenate(found)

@@ -7,7 +7,7 @@ from jaxtyping import Float
 
 from jaxkin.geometry.node_boxes import NodeBoxes, lengths, split
 from jaxkin.geometry.solid_pairs import SolidPairs
-from jaxkin.geometry.triangle_distance import triangle_distances
+from jaxkin.geometry.triangle_distance import directions, triangle_distances
 
 _STRIDE = 8
 """Of so many successive displacements one is searched alone; its nearest triangles are nearly so at the others."""
@@ -32,7 +32,8 @@ def distances(pairs: SolidPairs, within: float) -> Float[np.ndarray, " places"]:
     """Measure the distance of the surfaces of two solids, 0 where they cross; infinite where it exceeds `within`.
 
     At some of the displacements few items, those whose boxes are nearest, lead to triangles that are nearly the nearest
-    ones. They bound the distance there and at the displacements between; then all are searched that may be nearer.
+    ones. They bound the distance there and at the displacements between; then all are searched that may be nearer,
+    along the direction in which those triangles are from each other, too.
     """
     search = _Search(pairs, within)
     places = np.arange(len(pairs.pair))
@@ -45,6 +46,7 @@ def distances(pairs: SolidPairs, within: float) -> Float[np.ndarray, " places"]:
     for of in (before, np.where(before + _STRIDE > last, before, before + _STRIDE)):
         (known,) = np.nonzero(nearest[of, 0] >= 0)
         search.measure(known, *nearest[of[known]].T)
+    search.aim()
     search.follow(pairs.start(), None)
     return search.found
 
@@ -61,6 +63,20 @@ class _Search:
         """What a distance must be below."""
         self.nearest = np.full((count, 2), -1)
         """The triangles that are nearest; -1 where none is near."""
+        self.direction = np.zeros((3, count))
+        """A direction from solid 1 to solid 2, in the axes of solid 1, along which they are apart; 0 where none is
+        known."""
+
+    def aim(self) -> None:
+        """Take the directions between the nearest triangles so far.
+
+        Where solids are far from each other for the size of their features, such as two rounded edges across a hole,
+        nothing tells as well as this direction which of their triangles are not nearer.
+        """
+        (known,) = np.nonzero(self.nearest[:, 0] >= 0)
+        triangles, (first, second) = self.pairs.tree.triangles, self.nearest[known].T
+        found = directions(triangles[first], self.pairs.displaced.of(known, triangles[second]))
+        self.direction[:, known] = found.T
 
     def follow(self, items: np.ndarray, beam: int | None) -> None:
         """Split items until they are single triangles that may be nearer, and measure these.
@@ -109,7 +125,12 @@ class _Search:
         bounds = boxes.distances()
         most = limit[items[:, 0]]
         (near,) = np.nonzero(bounds[0] < most)
-        bounds[:, near] = np.maximum(bounds[:, near], lengths(boxes.at(near).along_own(self.pairs, items[near])))
+        some, few = items[near], boxes.at(near)
+        ahead, room = few.along(self.direction[:, self.pairs.intervals.middle[some[:, 0]]], self.pairs, some)
+        bounds[:, near] = np.maximum(bounds[:, near], [ahead - room, ahead])
+        still = bounds[0, near] < most[near]
+        near, some, few = near[still], some[still], few.at(still)
+        bounds[:, near] = np.maximum(bounds[:, near], lengths(few.along_own(self.pairs, some)))
         # what the middle displacement leaves out is only let in by the width of the interval
         return np.stack([bounds[0], (bounds[1] >= most) | (boxes.swept() > _SWEPT * most)])
 

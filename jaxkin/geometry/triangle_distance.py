@@ -28,6 +28,8 @@ _MANY = 1 << 15
 """The most of them at once."""
 _PARALLEL = 1e-24
 """Square of the sine of an angle below which two segments count as parallel, far below any angle of a solid."""
+_SHIFT = 1e-5
+"""Share of the distance of two triangles by which one is shifted to tell the direction from the other."""
 _DIRECTION = 1e-9
 """Sine of an angle below which two edges have no common normal: the rounding of its components is still 1e-7 of it."""
 
@@ -35,6 +37,19 @@ _DIRECTION = 1e-9
 def triangle_distances(first: Triangles, second: Triangles) -> Float[np.ndarray, " _"]:
     """Measure the distance of each triangle of one list to the one at its place in the other; 0 where they cross."""
     return _in_batches(_triangle_distance, first, second)
+
+
+def directions(first: Triangles, second: Triangles) -> Points:
+    """Find the unit direction from each triangle of one list to the one at its place in the other; 0 if they touch.
+
+    It is the gradient of their distance by a shift of the second one, by differences: nearly so.
+    """
+    apart = triangle_distances(first, second)
+    step = _SHIFT * apart
+    moved = [triangle_distances(first, second + axis * step[:, None, None]) for axis in np.eye(3)]
+    found = np.stack(moved, axis=-1) - apart[:, None]
+    length = np.linalg.norm(found, axis=1, keepdims=True)
+    return np.where(length > 0, found / np.where(length > 0, length, 1.0), 0.0)
 
 
 def set_distance(first: Triangles, second: Triangles) -> float:

@@ -74,6 +74,11 @@ class TriangleTree:
         return np.ascontiguousarray((self.high - self.low).T) / 2
 
     @cached_property
+    def sizes(self) -> Float[np.ndarray, " nodes"]:
+        """The length of half a diagonal of the own box of each node, -1 for single triangles, which are not split."""
+        return np.where(self.is_leaf, -1.0, np.linalg.norm(self.own_halves, axis=0))
+
+    @cached_property
     def _centroids(self) -> KDTree:
         """The centroids of the triangles, ordered for search."""
         from scipy.spatial import KDTree
