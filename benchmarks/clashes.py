@@ -1,5 +1,8 @@
 """What clashes cost: 100 parts, about 400 contacts, 361 poses. `python benchmarks/clashes.py [poses]`.
 
+`python benchmarks/clashes.py poses FILE` takes an assembly that others drew instead, as `benchmarks/cad.py` does, and
+runs its first drive through 0.1 rad, or a fiftieth of its size.
+
 The lattice of plates of `benchmarks/assembly.py`, hinged to their neighbours, closes and opens like rotating squares:
 neighbours turn by opposite angles, and their centres come nearer by the cosine. All plates move in all poses, and each
 stays in contact with up to four others and with the base. Times are of the processor and of the clock.
@@ -7,18 +10,22 @@ stays in contact with up to four others and with the base. Times are of the proc
 
 from __future__ import annotations
 
+import json
 import sys
 import time
 from dataclasses import replace
 from pathlib import Path
+from resource import RUSAGE_SELF, getrusage
 from tempfile import TemporaryDirectory
 
 import jax
 import jax.numpy as jnp
 import numpy as np
+from cad import grounded, read
 
 import jaxkin as jk
 from assembly import lattice
+from jaxkin.geometry.part import size
 
 jax.config.update("jax_enable_x64", True)
 POSES = 361
@@ -76,26 +83,45 @@ def _normal(base) -> np.ndarray:
     return normals[np.argmax(sizes)] / sizes.max()
 
 
-def main(poses: int = POSES) -> None:
+def real(path: Path, poses: int) -> jk.Motion:
+    """The motion of a drawn assembly by the first of its drives, the others at rest."""
+    labels = path.with_name(f"{path.name.split('.')[0]}.joints.json")
+    assembly = read(path)
+    fixed = grounded(json.loads(labels.read_text())) if labels.exists() else assembly.proposals()[0].fixed
+    mechanism = assembly.mechanism(fixed=fixed)
+    first, *others = mechanism.mobility().drivable
+    reach = 0.1 if first.rsplit(".", 1)[1].startswith(("phi", "theta", "psi")) else size(mechanism.solids) / 50
+    path_of_first = np.linspace(-reach / 2, reach / 2, poses)
+    return mechanism.sweep(dict.fromkeys(others, np.zeros(poses)) | {first: path_of_first})
+
+
+def main(poses: int = POSES, file: str | None = None) -> None:
+    motion = drawn_lattice(poses) if file is None else real(Path(file), poses)
+    solids = motion.mechanism.solids
+    print(f"{len(solids)} parts, {sum(len(part.triangles) for part in solids)} triangles, {poses} poses")
+    for within in (0.0, None):
+        clock, processor = time.perf_counter(), time.process_time()
+        found = jk.clashes(motion, within=within)
+        processor, clock = time.process_time() - processor, time.perf_counter() - clock
+        clash = int(found.clashing.any(axis=1).sum())
+        megabytes = getrusage(RUSAGE_SELF).ru_maxrss / 1024
+        print(
+            f"clearances within {'the default' if within is None else within}: {processor:.1f} s of the processor, "
+            f"{clock:.1f} s; {len(found.pairs)} pairs, {clash} clash; at most {megabytes:.0f} MB"
+        )
+
+
+def drawn_lattice(poses: int) -> jk.Motion:
+    """The lattice of plates, and its motion."""
     with TemporaryDirectory() as folder:
         path = Path(folder) / "lattice.step"
         lattice(ROWS, COLUMNS, path)
         assembly = jk.load(path)
         contacts = assembly.contacts()
         mechanism = assembly.mechanism(fixed=["base"])
-    motion = folded(mechanism, poses)
-    triangles = sum(len(part.triangles) for part in mechanism.solids)
-    print(f"{len(assembly.parts)} parts, {len(contacts)} contacts, {triangles} triangles, {poses} poses")
-    for within in (0.0, None):
-        clock, processor = time.perf_counter(), time.process_time()
-        found = jk.clashes(motion, within=within)
-        processor, clock = time.process_time() - processor, time.perf_counter() - clock
-        clash = int(found.clashing.any(axis=1).sum())
-        print(
-            f"clearances within {'the default' if within is None else within}: {processor:.1f} s of the processor, "
-            f"{clock:.1f} s; {len(found.pairs)} pairs, {clash} clash"
-        )
+    print(f"{len(contacts)} contacts")
+    return folded(mechanism, poses)
 
 
 if __name__ == "__main__":
-    main(*map(int, sys.argv[1:]))
+    main(*map(int, sys.argv[1:2]), *sys.argv[2:3])

@@ -12,6 +12,7 @@ from jaxkin.effects.clash_shapes import ClashShape
 from jaxkin.effects.invariant_faces import invariant
 from jaxkin.effects.penetration import Cuts, depths
 from jaxkin.effects.sampled_depths import sampled_depths
+from jaxkin.geometry.displaced import Displaced
 from jaxkin.geometry.solid_pairs import Forest, SolidPairs, forest
 from jaxkin.geometry.tree_crossings import Crossings, crossings, may_overlap
 from jaxkin.geometry.tree_distances import distances
@@ -54,7 +55,8 @@ class _Piece:
         self._ignore_invariant(still)
         self.pairs = self._pairs(range(len(cases)), [case.moved for case in cases])
 
-    def _pairs(self, which: Sequence[int], moved) -> SolidPairs:
+    def _pairs(self, which: Sequence[int], moved: Sequence[Displaced]) -> SolidPairs:
+        """Join some of the cases, each at displacements that are given."""
         return SolidPairs.of(self.solids, [self.numbers[k] for k in which], moved)
 
     def _ignore_invariant(self, still: float) -> None:
@@ -88,12 +90,14 @@ class _Piece:
         return np.split(result, pairs.begin[1:])
 
     def _depths(self, k: int, crossed: Crossings, near: np.ndarray) -> np.ndarray:
-        """Measure how deep the meshes of a case are in each other; `near` are the displacements at which they may be."""
+        """Measure how deep the meshes of a case are in each other; `near` are the displacements where they may be."""
         one, other, slack, _, moved = self.cases[k]
         begin = self.pairs.begin[k]
         own = slice(*np.searchsorted(crossed.place, [begin, begin + len(moved.shift)]))
-        place, first, second = (each[own] for each in crossed)
-        first, second = (each - self.solids.first[number] for each, number in zip((first, second), self.numbers[k]))
+        place, *triangles = (each[own] for each in crossed)
+        first, second = (
+            each - self.solids.first[number] for each, number in zip(triangles, self.numbers[k], strict=True)
+        )
         on_faces, amid = sampled_depths(one, other, moved, slack, near)
         suspects = np.union1d(place - begin, np.flatnonzero(np.maximum(on_faces, amid)))
         result = np.zeros(len(moved.shift))

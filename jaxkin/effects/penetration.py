@@ -17,7 +17,6 @@ from jaxkin.geometry.displaced import Displaced
 from jaxkin.geometry.tree_crossings import Slack
 from jaxkin.geometry.triangle_distance import edge_places
 
-
 _AT_ONCE = 1 << 18
 """Places of points that are held at once, some 50 MB."""
 

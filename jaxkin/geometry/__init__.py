@@ -10,8 +10,8 @@
 | faces of meshes | `weld` and `stitch` (corners), `shells` (solids), `facets`, `regions` (faces), `region_growing`, |
 | | `region_union`, `tessellation_test`, `merge` |
 | fits of surfaces to points | `fit`, `refine` (its steps), `fit_together`, `fit_uncertainty` |
-| distances and crossings of solids | `triangle_tree`, `tree_distances`, `tree_crossings`, `node_boxes`, |
-| | `pose_intervals`, `triangle_distance`, `sample_points` |
+| distances and crossings of solids | `triangle_tree`, `solid_pairs` (many together), `tree_distances`, |
+| | `tree_crossings`, `node_boxes`, `pose_intervals`, `triangle_distance`, `sample_points`, `congruent` (copies) |
 | the same in JAX, differentiable | `closest_points`, of `mesh_elements` |
 | swept volumes | `signed_distance`, `isosurface` |
 | gears | `teeth`, `tooth_rows`, `outline` |

@@ -97,14 +97,14 @@ def pose_intervals(
         turned[inside] = np.abs(rotation[inside] - rotation[every[inside]])
         moved[inside] = places[inside] - places[every[inside]]
         back = np.abs(np.einsum("pij,pi->pj", rotation, moved))
-        found.append((own[begin], half, begin, end, *(_largest(each, begin, end) for each in (turned, np.abs(moved), back))))
+        found.append(
+            (own[begin], half, begin, end, *(_largest(each, begin, end) for each in (turned, np.abs(moved), back)))
+        )
         split = end - begin > 1
         number, total = np.arange(total, total + len(begin)), total + len(begin)
         later = total + np.cumsum(2 * split) - 2 * split
         children.append(np.where(split[:, None], np.stack([later, later + 1], axis=-1), number[:, None]))
-        begin, end = (
-            np.stack(pair, axis=-1)[split].ravel() for pair in ((begin, half), (half, end))
-        )
+        begin, end = (np.stack(pair, axis=-1)[split].ravel() for pair in ((begin, half), (half, end)))
     pair, half, begin, end, turning, shifting, back = (np.concatenate(each) for each in zip(*found, strict=True))
     by_row = (rotation[half], shift[half], places[half], turning, shifting, back)
     return PoseIntervals(

@@ -12,7 +12,7 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Int
 
 from jaxkin.geometry.displaced import Displaced
 from jaxkin.geometry.pose_intervals import PoseIntervals, pose_intervals

@@ -70,9 +70,7 @@ class _Slacks:
         known = labels >= 0
         alone = np.any(self.alone[self.begin[pair] + labels] & known, axis=1)
         both = np.flatnonzero(known.all(axis=1) & ~alone)
-        alone[both] = self.ignored[
-            self.matrix[pair[both]] + labels[both, 0] * self.width[pair[both]] + labels[both, 1]
-        ]
+        alone[both] = self.ignored[self.matrix[pair[both]] + labels[both, 0] * self.width[pair[both]] + labels[both, 1]]
         found[some] = ~alone
         return found
 

@@ -9,7 +9,7 @@ import trimesh
 from scipy.spatial import KDTree
 
 import jaxkin as jk
-from jaxkin.effects.clash_shapes import displaced, shape_of
+from jaxkin.effects.clash_shapes import clash_parts, displaced
 from jaxkin.effects.invariant_faces import invariant
 from jaxkin.examples import EXAMPLES, path
 from reference.drawn_parts import box, loaded
@@ -176,8 +176,9 @@ def test_what_turns_about_its_own_axis_is_compared_once_and_the_rest_at_all_pose
     ahead = np.asarray(motion.points("pin", (1, 0, 0)))
     angle = np.arctan2(ahead[:, 1], ahead[:, 0])  # the axis of the joint may point either way
     # pin, bush and nothing else keep their place, and were free at the first pose
-    shapes = [shape_of(part) for part in mechanism.solids]
-    moved = displaced(*shapes, *(np.asarray(motion.transforms[part.name]) for part in mechanism.solids))
+    parts = clash_parts(mechanism.solids)
+    shapes = [each.shape for each in parts]
+    moved = displaced(*parts, *(np.asarray(motion.transforms[part.name]) for part in mechanism.solids))
     ignored = invariant(*shapes, moved, 1e-6)
     rows = ignored.all(axis=1), ignored.all(axis=0)
     kept = [shape.part.faces[k].surface for shape, row in zip(shapes, rows, strict=True) for k in np.flatnonzero(row)]

@@ -6,6 +6,7 @@ import trimesh
 
 from jaxkin.geometry import tree_distances
 from jaxkin.geometry.displaced import Displaced
+from jaxkin.geometry.solid_pairs import SolidPairs
 from jaxkin.geometry.tree_distances import distances
 from jaxkin.geometry.triangle_tree import triangle_tree
 
@@ -28,15 +29,16 @@ def slid(solids, at_once, monkeypatch):
     """The distances of a rod that slides in its tube, and the largest number of items that were split at once."""
     largest = [0]
 
-    def split(one, other, intervals, items, in_time):
+    def split(pairs, items, in_time):
         largest[0] = max(largest[0], len(items))
-        return original(one, other, intervals, items, in_time)
+        return original(pairs, items, in_time)
 
     original = tree_distances.split
     monkeypatch.setattr(tree_distances, "_MAX_ITEMS", at_once)
     monkeypatch.setattr(tree_distances, "split", split)
     shift = np.outer(np.linspace(-0.5, 0.5, 3), [0.0, 0.0, 1.0])
-    return distances(*solids, Displaced(np.tile(np.eye(3), (3, 1, 1)), shift), 0.5), largest[0]
+    pairs = SolidPairs.one(*solids, Displaced(np.tile(np.eye(3), (3, 1, 1)), shift))
+    return distances(pairs, 0.5), largest[0]
 
 
 def test_a_rod_in_a_tube_is_as_near_all_over(solids, monkeypatch):
