@@ -58,7 +58,7 @@ class _Slacks:
         self.matrix = np.zeros(len(slacks), int)
         self.matrix[self.ignores] = np.cumsum([0, *(each.size for each in some)])[:-1]
         self.alone = np.zeros(len(self.length), bool)
-        for pair in np.flatnonzero(self.ignores):
+        for pair in np.flatnonzero(self.ignores).tolist():
             for side, row in enumerate((np.all(slacks[pair].ignored, axis=1), np.all(slacks[pair].ignored, axis=0))):
                 self.alone[self.begin[pair, side] : self.begin[pair, side] + len(row)] = row
 
