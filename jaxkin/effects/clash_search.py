@@ -18,7 +18,7 @@ from jaxkin.geometry.tree_crossings import Crossings, crossings, may_overlap
 from jaxkin.geometry.tree_distances import distances
 
 _AT_ONCE = 1 << 14
-"""Displacements of all pairs that are searched at once: their intervals take some 100 MB, and more save no time."""
+"""Displacements of all pairs that are searched at once: what bounds the memory of their intervals."""
 
 
 def clearances(cases: Sequence[ClashCase], within: float, still: float) -> list[Float[np.ndarray, " poses"]]:

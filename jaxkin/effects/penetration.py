@@ -18,7 +18,7 @@ from jaxkin.geometry.tree_crossings import Slack
 from jaxkin.geometry.triangle_distance import edge_places
 
 _AT_ONCE = 1 << 18
-"""Places of points that are held at once, some 50 MB."""
+"""Places of points that are held at once."""
 
 
 class Cuts(NamedTuple):
