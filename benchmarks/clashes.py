@@ -124,4 +124,4 @@ def drawn_lattice(poses: int) -> jk.Motion:
 
 
 if __name__ == "__main__":
-    main(*map(int, sys.argv[1:2]), *sys.argv[2:3])
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else POSES, *sys.argv[2:3])
