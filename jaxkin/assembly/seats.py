@@ -10,6 +10,7 @@ import numpy as np
 from jaxkin.assembly.guides import is_guide
 from jaxkin.assembly.inference.bores import NEAR_ANGLE, bores
 from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.known import BodyPair
 from jaxkin.assembly.inference.lead_nuts import is_lead_screw
 from jaxkin.geometry.part import size
 from jaxkin.geometry.pose import Transform, Vector
@@ -36,17 +37,19 @@ def not_idle(mechanism: Mechanism) -> int:
     return useful_freedoms(mechanism) and mechanism.mobility().useful + mechanism.mobility().spins
 
 
-def seats_of(mechanism: Mechanism, inexact: bool, turning_in: Collection[str]) -> list[Inference]:
+def seats_of(
+    mechanism: Mechanism, inexact: bool, bearings: Collection[str], driven: Collection[BodyPair]
+) -> list[Inference]:
     """Find bodies between which faces leave slides that move nothing else: a bracket on a step, a plate between two
     cheeks; and rods that are set into each other as a rod end into its rod, which leave a turn, where the assembly is
-    `inexact`: where exact contacts do not determine all of it. What is on one of `turning_in`, bearings and
-    motors, turns there.
+    `inexact`: where exact contacts do not determine all of it. What is in one of the `bearings` turns there, and
+    so do the `driven`, motors and what is on their shafts.
 
     Only where something moves: of a mechanism that is locked nothing is known to be of no use. Seats on both sides of a
     body that would hold two others to each other which move by a joint, or, where they are flat, over a roller, are not
     both taken, nor a seat of a body that slides in a third one on a body that turns there. A carriage on a rail is a
-    guide, though nothing that is drawn moves with it. What drives turns in what is fixed, a pin between the cheeks of a
-    fork does not; a lead screw turns in what it moves.
+    guide, though nothing that is drawn moves with it. What drives turns in what is fixed, but a motor itself is held
+    there, and so is a pin between the cheeks of a fork; a lead screw turns in what it moves.
     """
     if not useful_freedoms(mechanism):
         return []
@@ -60,11 +63,12 @@ def seats_of(mechanism: Mechanism, inexact: bool, turning_in: Collection[str]) -
     result = []
     for joint in mechanism.all_joints:
         flat = joint.kind in (JointKind.PRISMATIC, JointKind.PLANAR)
-        turning = inexact and joint.kind is JointKind.REVOLUTE
+        turning = inexact and joint.kind is JointKind.REVOLUTE and frozenset(joint.parts) not in driven
         turning = turning and not {owner[part] for part in joint.parts} & on_threads
-        if turning and {owner[part] for part in joint.parts} & ground:
+        mounted = any(pair & {*joint.parts} for pair in driven)
+        if turning and not mounted and {owner[part] for part in joint.parts} & ground:
             turning = _is_pin_of_fork(mechanism, joint, owner, ground)
-        screwed = turning and not {*joint.parts} & {*turning_in} and _is_in_line(mechanism, joint, owner)
+        screwed = turning and not {*joint.parts} & {*bearings} and _is_in_line(mechanism, joint, owner)
         if joint.kind is JointKind.FIXED and joint.name in mechanism.contacts and joint.evidence:
             result.append(Inference(joint.parts, joint.evidence))
             continue

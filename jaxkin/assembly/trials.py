@@ -65,8 +65,8 @@ class Trials:
         self.bearings = {name for each in self.measured.bearings for name in (each.outer, each.inner)}
         self.bearings |= {each.part.name for each in self.measured.closed_bearings}
         """The rings of bearings, and bearings that are one part each."""
-        self.motors = {each.part for each in self.measured.motors}
-        """Motors that are one part with their shaft."""
+        self.driven = set[BodyPair]()
+        """Motors that are one part with their shaft, each with a hub on that."""
         self.fasteners = set[str]()
         """Parts that were taken for fasteners in some trial."""
 
@@ -88,6 +88,7 @@ class Trials:
         implied = infer(known)
         self.fasteners.update(implied.fasteners)
         self.heeded.update(implied.taken_back)
+        self.driven.update(implied.driven)
         found = [*seats, *implied.found]
         plain = make_mechanism(self.assembly, self.contacts, options, found)
         return Trial(*self._stopped(plain, found, implied.stops), not_idle(plain))

@@ -75,7 +75,7 @@ def _with_springs(
     seats, trial = _hold_lying(trials, seats, trial)
     trial = _hold_tight(trials, trial)
     check_ignored(contacts, options.ignore, trials.heeded)
-    found = with_doubts(_movable(trials, seats, trial), trials.bearings | trials.motors)
+    found = with_doubts(_movable(trials, seats, trial), trials.bearings)
     found = with_turning(found, trials.measured, trials.bearings)
     taken_back = [
         f"nothing is inferred between {one!r} and {other!r}, as was asked for"
@@ -107,9 +107,9 @@ def _hold_all_but_lids(trials: Trials, seats: list[Inference], trial: Trial) -> 
 def _hold_seated(trials: Trials, seats: list[Inference], trial: Trial) -> _Held:
     """Hold bodies that faces seat in or on others but for motions of no use, as long as that changes nothing else."""
     inexact = len(trial.inferences) > len(seats)
-    turning = {each.part.name for each in trials.measured.closed_bearings} | trials.motors
+    bearings = {each.part.name for each in trials.measured.closed_bearings}
     for _ in range(_ROUNDS):
-        new = seats_of(trial.mechanism, inexact, turning)
+        new = seats_of(trial.mechanism, inexact, bearings, trials.driven)
         firm = [each for each in new if not is_on_one_plane(trial.mechanism, each)]
         # what lies on one plane only is the first to be no seat, as a knife that slides on its guards
         for some in [new, firm] if firm != new else [new]:
@@ -155,11 +155,7 @@ def _hold_lying(trials: Trials, seats: list[Inference], trial: Trial) -> _Held:
 def _hold_tight(trials: Trials, trial: Trial) -> Trial:
     """Hold parts that fit a pin exactly, and that no face keeps there, where all else moves as before."""
     before = trial.mechanism
-    for held in (
-        _choices(tight_fits(before, trials.measured, trials.bearings | trials.motors))
-        if useful_freedoms(before)
-        else ()
-    ):
+    for held in _choices(tight_fits(before, trials.measured, trials.bearings)) if useful_freedoms(before) else ():
         if held[0] in trial.inferences:
             break  # all are held together
         other = trials.with_more(trial, held)

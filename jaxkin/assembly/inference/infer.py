@@ -102,6 +102,8 @@ class Inferred(NamedTuple):
     in."""
     taken_back: set[BodyPair]
     """Those of the ignored pairs between which something would have been inferred."""
+    driven: set[BodyPair]
+    """Motors that are one solid with their shaft, each with a hub on that."""
 
 
 def infer(known: Known) -> Inferred:
@@ -124,7 +126,7 @@ def infer(known: Known) -> Inferred:
     levels = [[each for each in replacing if each.stop is level] for level in Stop]
     levels[Stop.FACES : Stop.FACES + 1] = near_first(levels[Stop.FACES])
     stops = [[each.inference for each in level] for level in levels]
-    return Inferred(known.found, stops, frozenset(fastening), known.taken_back)
+    return Inferred(known.found, stops, frozenset(fastening), known.taken_back, known.driven)
 
 
 def _take_bearings(known: Known) -> None:

@@ -56,6 +56,27 @@ def test_the_horn_of_a_servo_turns_on_it_with_what_it_is_set_into(length, width,
     assert not turns or kind_of(mechanism, "horn", "servo") == "revolute"
 
 
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_motor_is_held_in_its_bracket_and_drives_a_four_bar(seed):
+    """Its pilot turns in the bracket by exact contacts; what is on its shaft turns, and nothing else does."""
+    motor = part("motor", block((-21, -21, -40), (21, 21, 0)), pin(11.0, 0, 4), pin(2.5, 4, 22))
+    pivot = [pin(2.5, 4, 22, (70, 35)), pin(4.0, 22, 24, (70, 35))]
+    bracket = part("bracket", ring(11.0, 15.0, 0, 4), block((-30, 15, 0), (120, 50, 4)), *pivot)
+    eyes = [ring(2.5, 7.0, 6, 11, (x, 0)) for x in (0, 25, 70)]
+    crank = part("crank", eyes[0], eyes[1], block((2.5, -3, 6), (22.5, 3, 11)))
+    rocker = part("rocker", eyes[2], ring(2.55, 7.0, 6, 11, (70, 35)), block((67, 2.5, 6), (73, 32.4, 11)))
+    coupler = part(
+        "coupler", *(ring(2.55, 7.0, 11, 16, (x, 0)) for x in (25, 70)), block((27.6, -3, 11), (67.4, 3, 16))
+    )
+    heads = [(2.5, 6, 16), (4.0, 16, 18), (4.0, 4, 6)]
+    pins = [part(f"pin {x}", *(pin(*size, (x, 0)) for size in heads)) for x in (25, 70)]
+    drawn = anywhere(assembly(motor, bracket, crank, rocker, coupler, *pins), seed, **ON_CATALOGUE)
+    mechanism = drawn.mechanism(fixed=["bracket"])
+    body = owners(mechanism)
+    assert body["motor"] == body["bracket"] != body["crank"]
+    assert kind_of(mechanism, "motor", "crank") == "revolute" and mechanism.mobility().useful == 1
+
+
 def rods_and_carriages(length):
     """Two carriages with two bearings each on two rods, of which a block holds more than half with them."""
     places = [(-30.0, 0.0), (30.0, 0.0)]
