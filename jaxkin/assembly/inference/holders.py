@@ -27,8 +27,8 @@ def holder_of(known: Known, stack: Stack, body: Mapping[str, str], slides: bool)
 
     A body that is round about the axis, as a roller or a planet is, turns on the stack, and so does one that is on it
     with sleeves only, where there is another one. Of a body that a pin fits exactly, and others with play, it is the
-    former: those turn on it. Of a fixed body and one other, which fit alike on two ends, it is the fixed one. Where
-    others slide on the stack, that body reaches farther on both sides, or fits more tightly; None if none does.
+    former: those turn on it. Of bodies that fit alike it is a fixed one. Where others slide on the stack, that body
+    reaches farther on both sides, or fits more tightly; None if none does.
     """
     along = stack.axis.axis
     reach: dict[str, list[tuple[float, float, str]]] = {}
@@ -63,13 +63,16 @@ def holder_of(known: Known, stack: Stack, body: Mapping[str, str], slides: bool)
         return (None, "") if moves else (part, "only")
     turns = all(end[2] in known.sleeves for end in reach[widest])  # as a shaft in bearings, not as a rod in holes
     others = [ends[owner] for owner in ends if owner != widest]
-    tightest = first_largest(fits, lambda owner: -fits[owner], rounding)
+    grounded = {body[name] for name in known.fixed} & reach.keys()
+    # of bodies that fit alike a fixed one, whatever the order of the parts
+    tightest = first_largest(
+        sorted(fits, key=lambda owner: owner not in grounded), lambda owner: -fits[owner], rounding
+    )
     same = SAME_FIT * stack.axis.radius
     if not slides and tightest in keepers and [owner for owner, fit in fits.items() if fit <= same] == [tightest]:
         return ends[tightest][2], "which it fits exactly, and has play in others"
     inside = all(low + rounding < one and other < high - rounding for one, other, _ in others)
     if not slides or (not turns and inside):
-        grounded = {body[name] for name in known.fixed} & reach.keys()
         if len(reach) == 2 and grounded and not inside and max(fits.values()) - min(fits.values()) <= same:
             return ends[min(grounded)][2], "as it is fixed, and fits it as the other one does"
         return part, "farthest out"
