@@ -105,7 +105,7 @@ def find_limit(
                 return FoundLimit(first.kind, at, first.column, False)
             if ahead is None and _is_home(curve, begun, at, features):
                 advance = at.q - begun.q
-                ahead = _periods_within(ranges, advance, lowest, highest)
+                ahead = _periods_within(curve, ranges, advance, lowest, highest)
                 if ahead is None:
                     return FoundLimit(LimitKind.NONE, at, None, True)
                 there = there._replace(q=there.q + ahead * advance)
@@ -174,18 +174,22 @@ def _crossed(curve: MotionCurve, here: CurvePose, there: CurvePose, length: floa
 
 
 def _periods_within(
-    ranges: Sequence[CoordinateRange], advance: LoopCoordinates, lowest: LoopCoordinates, highest: LoopCoordinates
+    curve: MotionCurve,
+    ranges: Sequence[CoordinateRange],
+    advance: LoopCoordinates,
+    lowest: LoopCoordinates,
+    highest: LoopCoordinates,
 ) -> int | None:
     """Count the periods after the first one that surely stay within all ranges; None where all periods do.
 
     `advance` is by how much the coordinates have turned on in the first period, in which they were between `lowest`
     and `highest` at the ends of steps.
     """
-    most = np.inf
+    most, between = np.inf, LONGEST_STEP * max(curve.reach(lowest), curve.reach(highest))
     for (column, low, high), turned in zip(ranges, (advance[each.column] for each in ranges), strict=True):
         if abs(turned) > SAME_POSE:
             left = high - highest[column] if turned > 0 else lowest[column] - low
-            most = min(most, (left - LONGEST_STEP) / abs(turned))
+            most = min(most, (left - between) / abs(turned))
     return None if np.isinf(most) else max(0, int(most))
 
 

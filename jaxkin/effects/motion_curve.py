@@ -14,13 +14,15 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.linkage.host_closure import ClosedLoops, LoopCoordinates
+from jaxkin.linkage.host_closure import ClosedLoops, ClosureJacobian, LoopCoordinates
 from jaxkin.solve.continuation.step import CROSSING
 
 LONGEST_STEP = 0.2
-"""Longest step, radians and characteristic lengths of all coordinates together."""
+"""Longest step, radians and characteristic lengths of all coordinates together, while no slide is longer than the
+mechanism: it grows with the longest slide beyond that, which turns the mechanism by so much less."""
 FIRST_STEP = 0.02
-"""First step, and the longest one where the drive is slow: a dwell may lock twice within a longer one."""
+"""First step, and the longest one where the drive is slow: a dwell may lock twice within a longer one. It grows alike.
+"""
 SHORTEST_STEP = 1e-8
 """Step below which the curve counts as lost."""
 SLOW = 0.1
@@ -57,20 +59,21 @@ class MotionCurve:
         """Take the loops with the column of the drive, the columns at rest, and the number of idle freedoms."""
         self.loops, self.drive, self.held, self.idle = loops, drive, list(held), idle
         self.free = [k for k in range(len(loops.columns)) if k not in self.held]
+        self.slides = [k for k, length in enumerate(loops.lengths) if length]
         self.spins: list[int] = []
         """Columns that the idle motions move, such as those of the balls of a rod: known once the curve has begun."""
 
-    def _freedoms(self, q: LoopCoordinates) -> tuple[Float[np.ndarray, "freedoms columns"], float]:
+    def _freedoms(self, jacobian: ClosureJacobian) -> tuple[Float[np.ndarray, "freedoms columns"], float]:
         """Compute a basis of the rates that keep the loops closed, and `CurvePose.sigma`.
 
         There are as many rates as idle freedoms and one more; where branches cross there are further ones.
         """
-        jacobian = self.loops.travel(q).jacobian[:, self.free]
+        columns, jacobian = jacobian.shape[1], jacobian[:, self.free]
         rank = len(self.free) - 1 - self.idle
         values, directions = np.linalg.svd(jacobian, full_matrices=True)[1:]
         least = self.loops.thresholds.rank * values.max(initial=0.0)
         basis = directions[min(rank, int((values > least).sum())) :]
-        found = np.zeros((len(basis), len(q)))
+        found = np.zeros((len(basis), columns))
         found[:, self.free] = basis
         return found, float(values[rank - 1]) if rank else np.inf
 
@@ -80,7 +83,7 @@ class MotionCurve:
         It rises where `direction` is 1, and falls where that is -1.
         None where the pose is singular: where the drive does not move to first order, or branches cross.
         """
-        basis, sigma = self._freedoms(home)
+        basis, sigma = self._freedoms(self.loops.jacobian(home))
         if len(basis) != 1 + self.idle:
             return None
         # the motion of least norm, orthogonal to the idle ones, of which the drive has no part
@@ -92,16 +95,16 @@ class MotionCurve:
         self.spins = np.flatnonzero(np.abs(idle).max(axis=0) > MOVES).tolist() if self.idle else []
         return CurvePose(home, direction * tangent / size, sigma)
 
-    def _idle_motions(self, q: LoopCoordinates) -> Float[np.ndarray, "idle columns"]:
+    def _idle_motions(self, jacobian: ClosureJacobian) -> Float[np.ndarray, "idle columns"]:
         """Compute a basis of the rates of `spins` that keep the loops closed, none where these are more than the idle
         ones, as in a singular pose of the angles of a ball."""
+        columns = jacobian.shape[1]
         if not self.spins:
-            return np.zeros((0, len(q)))
-        jacobian = self.loops.travel(q).jacobian[:, self.spins]
-        values, directions = np.linalg.svd(jacobian, full_matrices=True)[1:]
+            return np.zeros((0, columns))
+        values, directions = np.linalg.svd(jacobian[:, self.spins], full_matrices=True)[1:]
         rank = int((values > self.loops.thresholds.rank * values.max(initial=0.0)).sum())
         known = rank == len(self.spins) - self.idle
-        found = np.zeros((self.idle if known else 0, len(q)))
+        found = np.zeros((self.idle if known else 0, columns))
         found[:, self.spins] = directions[rank:] if known else 0.0
         return found
 
@@ -114,9 +117,9 @@ class MotionCurve:
         q, found = self.loops.closed(here.q + s * here.tangent, self.held)
         if not found.residual_norm <= self.loops.thresholds.residual:
             return None
-        basis, sigma = self._freedoms(q)
+        basis, sigma = self._freedoms(found.jacobian)
         tangent = basis.T @ (basis @ here.tangent)
-        idle = self._idle_motions(q)
+        idle = self._idle_motions(found.jacobian)
         tangent -= idle.T @ (idle @ tangent)
         size = float(np.linalg.norm(tangent))
         return None if size < 0.5 else CurvePose(q, tangent / size, sigma)
@@ -135,12 +138,17 @@ class MotionCurve:
             length *= 0.5
         return None
 
+    def reach(self, q: LoopCoordinates) -> float:
+        """Measure how far the parts are spread: the longest slide, or 1, the characteristic length."""
+        return float(np.abs(q[self.slides]).max(initial=1.0))
+
     def next_length(self, before: CurvePose, here: CurvePose, length: float) -> float:
         """Choose the length to try after a step of `length`: at most half of what is left to where branches cross.
 
         Beside such a pose the curve may turn back sharply, which a long step would not see.
         """
         longest = FIRST_STEP if abs(here.tangent[self.drive]) < SLOW else LONGEST_STEP
+        longest *= self.reach(here.q)
         if (fall := before.sigma - here.sigma) > 0:
             longest = min(longest, max(0.5 * length * here.sigma / fall, CROSSING))
         return min(2.0 * length, longest)

@@ -48,17 +48,16 @@ def chain(
     leaves = frames if frames_2 is None else frames_2
     numbered = zip(movements, coordinate_ranges(movements), frames, leaves, splines or repeat(None), strict=False)
     for movement, own, frame, leave, spline in numbered:
-        pose = pose @ frame
+        columns = list((pose @ frame).T)
         point = None if spline is None else spline.at(*q[own.start : own.stop])
         for element in MOVEMENTS[movement].elements:
             k = own[element.coordinate]
-            axis = pose[:3, element.axis]
+            axis, origin = columns[element.axis][:3], columns[3][:3]
             slides, turns = rates(element, pitch, point)
             screws[:3, k] += turns * axis
-            screws[3:, k] += turns * cross(pose[:3, 3], axis) + slides * axis
-            how_far = amount(element, q[k], pitch, point, _cos_sin)
-            pose = np.stack(displaced_columns(list(pose.T), element.axis, *how_far), axis=1)
-        pose = pose @ inverse(leave)
+            screws[3:, k] += turns * cross(origin, axis) + slides * axis
+            columns = displaced_columns(columns, element.axis, *amount(element, q[k], pitch, point, _cos_sin))
+        pose = np.array(columns).T @ inverse(leave)
     return pose, screws
 
 

@@ -42,6 +42,10 @@ ClosureResidual = Float[np.ndarray, " equations"]
 """What the loops and couplings leave open, as `Travel.residual` has it."""
 
 
+ClosureJacobian = Float[np.ndarray, "equations columns"]
+"""Derivatives of the residual, as `Travel.jacobian` has them."""
+
+
 class ScaledChain(NamedTuple):
     """The movements of a joint with their numbers, lengths over the characteristic length, about the centroid."""
 
@@ -68,7 +72,7 @@ class Travel(NamedTuple):
     residual: ClosureResidual
     """Six rows a loop, the displacement that is left open as a twist: `vee(R - R^T)/2` of its rotation, then its
     translation; after those of all loops the `coupling_residual`."""
-    jacobian: Float[np.ndarray, "equations columns"]
+    jacobian: ClosureJacobian
     """For each column six rows a loop, the twist of the loop's end at a unit rate of the coordinate: the derivative of
     the residual where the loop is closed. After those of all loops the `coupling_jacobian`."""
     screws: Screws
@@ -155,7 +159,9 @@ class ClosedLoops:
         }
         first = np.cumsum([0, *(joint.freedoms for joint in joints.values())])
         names = [name for joint in joints.values() for name in joint.coordinates]
-        self.units = np.array([length if is_length(name) else 1.0 for name in names])
+        self.lengths = [is_length(name) for name in names]
+        """For each column whether it is a length."""
+        self.units = np.where(self.lengths, length, 1.0)
         """For each column the factor from the scaled coordinate to that of the mechanism: 1 for angles."""
         self.couplings = [
             self._scaled(couplings[number], [every[j].full_names[k] for j, k in self.columns])
@@ -176,7 +182,7 @@ class ClosedLoops:
         largest = np.abs(scaled).max()
         return columns, scaled / largest, float(coupling.offset) / largest
 
-    def jacobian(self, q: LoopCoordinates) -> Float[np.ndarray, "equations columns"]:
+    def jacobian(self, q: LoopCoordinates) -> ClosureJacobian:
         """Compute the closure Jacobian at scaled coordinates `q`: see `Travel.jacobian`."""
         return self.travel(q).jacobian
 
@@ -279,9 +285,7 @@ def closure_twist(displacement: Transform) -> tuple[float, ...]:
     return turn[2, 1] / 2, turn[0, 2] / 2, turn[1, 0] / 2, *shift
 
 
-def least_norm(
-    jacobian: Float[np.ndarray, "equations columns"], right: ClosureResidual, damping: float
-) -> LoopCoordinates:
+def least_norm(jacobian: ClosureJacobian, right: ClosureResidual, damping: float) -> LoopCoordinates:
     """Solve J x = r with least norm; `damping` is relative to the mean square of the rows of J."""
     gram = jacobian @ jacobian.T
     floor = damping * max(float(np.trace(gram)) / max(len(gram), 1), 1e-300)
