@@ -271,7 +271,7 @@ def _scipy(problem, chosen, weight, target, vector) -> tuple[bool, int]:
     if id(problem) not in _compiled:
         penalty = Penalty(weight, np.zeros(jax.eval_shape(problem.judge, chosen.start).margins.size))
         _compiled[id(problem)] = (
-            jax.jit(lambda vector: jnp.concatenate(problem.weighted(vector, penalty))),
+            jax.jit(lambda vector: jnp.concatenate(problem.judge(vector).weighted(penalty))),
             jax.jit(problem.judge),
         )
     residuals, judge = _compiled[id(problem)]

@@ -110,7 +110,7 @@ def _program(key: ProgramKey, together: int) -> TwoTiers:
 
         def one(unit, penalty):
             def weighted(unit):
-                return problem.weighted(lower + width * unit, penalty)
+                return problem.judge(lower + width * unit).weighted(penalty)
 
             # operations are traced once, and then mapped and differentiated: in place of all functions of JAX, each
             # of which is a program to be mapped and differentiated by itself

@@ -50,6 +50,11 @@ class Judged(NamedTuple):
         """Whether every number is finite."""
         return jnp.all(jnp.isfinite(jnp.concatenate(self)))
 
+    def weighted(self, penalty: Penalty) -> WeightedResiduals:
+        """Weight what is violated, so that its squares are the penalty."""
+        root = jnp.sqrt(penalty.weight)
+        return WeightedResiduals(self.rows, root * self.gaps, root * jnp.maximum(penalty.shifts - self.margins, 0.0))
+
 
 class WeightedResiduals(NamedTuple):
     """What a sum of squares adds up, for a design and a penalty."""
@@ -115,18 +120,6 @@ class Problem:
     def constraint_count(self, motion: Motion, extras: dict[str, Any]) -> int:
         """Count the values of all constraints, for the motion and the extras of any design."""
         return sum(rows.size for rows in jax.eval_shape(_margins, self, motion, extras))
-
-    def weighted(self, vector, penalty: Penalty) -> WeightedResiduals:
-        """Compute residuals and violations, weighted so that the sum of their squares is what is minimised."""
-        judged, root = self.judge(vector), jnp.sqrt(penalty.weight)
-        return WeightedResiduals(
-            judged.rows, root * judged.gaps, root * jnp.maximum(penalty.shifts - judged.margins, 0.0)
-        )
-
-    def total(self, vector, penalty: Penalty) -> Float[Array, ""]:
-        """Compute the loss with its penalty."""
-        rows, gaps, charged = self.weighted(vector, penalty)
-        return (jnp.sum(rows**2) if self.squares else rows[0]) + jnp.sum(gaps**2) + jnp.sum(charged**2)
 
     def _call(self, motion: Motion, extras: dict[str, Any]):
         return called(self.loss, motion, extras)

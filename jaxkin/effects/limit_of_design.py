@@ -124,7 +124,7 @@ class _Found(NamedTuple):
     """The pose there, scaled as its loops are."""
 
 
-@partial(whole_program, static=(), one_pose=True)
+@partial(whole_program, static=())
 def _find(equation: LimitEquation, linkage: Linkage) -> _Found:
     """Lead the pose of the limit to another design."""
     point, columns, joints = _Loops.of(equation, linkage)
@@ -155,7 +155,7 @@ def _limit_jvp(primals, tangents):
     return _attach_derivative(*primals), jnp.where(jnp.isnan(found.value), 0.0, change)
 
 
-@partial(whole_program, static=(), one_pose=True)
+@partial(whole_program, static=())
 def _gradient(equation: LimitEquation, linkage: Linkage, state: State) -> Linkage:
     """Differentiate the limit by all numbers of a linkage: those of its pose with u at rest."""
     point = _Loops.of(equation, linkage).point

@@ -28,33 +28,42 @@ for work occupy the core that another shard needs. Several cores work on shards 
 """
 
 FEW_OPTIMISATIONS = {"xla_backend_optimization_level": 0}
-"""What is compiled once for one pose runs in a millisecond, optimised or not: LLVM then takes 0.6 s in place of 1.5 for
-the limit of a four-bar."""
+"""Options of XLA with which LLVM translates, and does not optimise."""
+FEW_POSES = 512
+"""Most poses for which effects are compiled with few optimisations, as they are computed in milliseconds either way:
+reactions in 361 poses of a four-bar take 2.1 s of the processor to compile in place of 5.8, and 4.8 ms in place of 2.5
+a call, so that 1,600 calls cost as much; the limit of a four-bar takes 0.6 s in place of 1.5."""
 
 _traces = 0
 """Number of programs that find poses and were traced in this process."""
 
 
-def whole_program(function: Callable, static: tuple[int, ...], *, one_pose: bool = False) -> Callable:
-    """Compile a function of arrays with the options of the solver, which are those of whole programs.
+def whole_program(function: Callable, static: tuple[int, ...]) -> Callable:
+    """Compile a function of arrays with the options of the solver, which are those of whole programs; for up to
+    `FEW_POSES` poses with `FEW_OPTIMISATIONS`.
 
     `static` are the places of its arguments that are hashed, and not arrays. Where numbers are traced, the function is
-    part of another program, and compiled as that is. What is computed of `one_pose` only has `FEW_OPTIMISATIONS`.
+    part of another program, and compiled as that is.
     """
     part = jax.jit(function, static_argnums=static)
-    whole = cache(lambda: jax.jit(function, static_argnums=static, **jit_options(one_pose)))
+    whole = cache(lambda quick: jax.jit(function, static_argnums=static, **jit_options(quick)))
 
     @wraps(function)
     def call(*given):
-        return (part if traced(given) or inside_trace() else whole())(*given)
+        leaves = jax.tree.leaves(given)
+        if traced(leaves) or inside_trace():
+            return part(*given)
+        longest = max((length for leaf in leaves for length in getattr(leaf, "shape", ())), default=1)
+        return whole(longest <= FEW_POSES)(*given)
 
     return call
 
 
 @cache
-def jit_options(one_pose: bool = False) -> dict[str, Any]:
-    """Return the compiler options as an argument of `jax.jit`; empty where this version of JAX knows none of them."""
-    known = known_options(COMPILER_OPTIONS | (FEW_OPTIMISATIONS if one_pose else {}))
+def jit_options(quick: bool = False) -> dict[str, Any]:
+    """Return the compiler options, `quick` ones with few optimisations, as an argument of `jax.jit`; empty where this
+    version of JAX knows none of them."""
+    known = known_options(COMPILER_OPTIONS | (FEW_OPTIMISATIONS if quick else {}))
     return {"compiler_options": known} if known else {}
 
 

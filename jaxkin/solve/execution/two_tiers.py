@@ -10,14 +10,12 @@ from typing import Any
 
 import jax
 
-from jaxkin.solve.execution.compiler import COMPILER_OPTIONS, known_options
+from jaxkin.solve.execution.compiler import COMPILER_OPTIONS, FEW_OPTIMISATIONS, known_options
 
-QUICK = {"xla_backend_optimization_level": 0}
-"""Options of XLA in place of those of other programs: LLVM translates, and does not optimise. Residuals and derivatives
-of eight four-bars took 3.5 s of a processor to compile in place of 9.4 and 11.0, and 1.5 and 6.4 ms a call in place of
-0.6 and 2.1 (paths of five points, and of ten)."""
 QUICK_OPERATIONS = 1e10
-"""Arithmetic operations, as XLA counts them, after which the other program is compiled. The measured difference of 6 to
+"""Arithmetic operations, as XLA counts them, after which the optimised program is compiled. Residuals and derivatives
+of eight four-bars took 3.5 s of a processor to compile with few optimisations, and 9.4 and 11.0 with all; a call took
+1.5 and 6.4 ms in place of 0.6 and 2.1 (paths of five points, and of ten). The measured difference of 6 to
 7 s is spent after 0.9e10 to 1.2e10 of them: so no search takes longer than twice what it takes with the better of both
 programs. By operations and not by seconds, since both programs round differently, and a search is to be repeatable."""
 
@@ -55,4 +53,4 @@ class TwoTiers:
 
 def _compiled(lowered: Any, quick: bool) -> Any:
     """Compile what was lowered, quickly or well; either way with all options of the solver's programs."""
-    return lowered.compile(known_options(COMPILER_OPTIONS | QUICK if quick else COMPILER_OPTIONS))
+    return lowered.compile(known_options(COMPILER_OPTIONS | FEW_OPTIMISATIONS if quick else COMPILER_OPTIONS))
