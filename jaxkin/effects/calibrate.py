@@ -19,6 +19,7 @@ from jaxkin.effects.calibration_unknowns import Nominal, Unknowns, unknowns_of
 from jaxkin.effects.rank_deficient_fit import Fit, fit, readable, told
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.targets import extent
+from jaxkin.solve.execution.compiler import whole_program
 from jaxkin.solve.options import SolverOptions, options_with
 
 SMALL = 1e-6
@@ -126,7 +127,7 @@ def calibrate(
     return _result(mechanism, model, known, scales, found, given_sigma=sigma is not None)
 
 
-@partial(jax.jit, static_argnums=0)
+@partial(whole_program, static=(0,))
 def _residuals(model: Model, mechanism: Mechanism, numbers: _Numbers, changes: Float[Array, " unknowns"]):
     """Compute weighted residuals, their derivatives by the unknowns, and which poses are on the branch."""
 

@@ -20,7 +20,7 @@ from jaxkin._names import listed, nearest
 from jaxkin.effects.curve_range import DOUBLE, SINGLE, CurvePoints, CurveRange, Evaluate, range_of
 from jaxkin.effects.cusps_crossings import Crossing, Cusp, crossings_of, cusps_of
 from jaxkin.effects.pose_plot import save_rows
-from jaxkin.effects.rates import accelerations, velocities
+from jaxkin.effects.rates import accelerations
 from jaxkin.geometry.headings import coordinate_with_unit, places_with_unit
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.pose import Vector
@@ -29,6 +29,8 @@ from jaxkin.mechanism.motion import Motion, as_point
 UPRIGHT = 1e-9
 """What the cosine between the normal of a curve and an axis of the world lacks of 1, up to which its axes are those of
 the world: rounding of poses in either precision leaves less."""
+POSES = 128
+"""Poses that are evaluated together: all that is refined in one, and a whole motion in a few calls of that program."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -151,16 +153,20 @@ def coupler_curve(motion: Motion, part: str, point: Sequence[float | int] | np.n
 
 
 def _evaluation(motion: Motion, drive: str, part: str, at: Vector) -> Evaluate:
-    """Make the function that computes the curve at any inputs."""
+    """Make the function that computes the curve at any inputs, as many at a time as one compiled program has."""
+    number = motion.mechanism.parts.index(part)
+
+    def some(inputs: Float[np.ndarray, " inputs"]) -> CurvePoints:
+        padded = np.pad(inputs, (0, POSES - len(inputs)), mode="edge")
+        swept = motion.mechanism.sweep({drive: padded}, options=motion.options)
+        rates = [np.asarray(every[number], float) for every in accelerations(swept, {drive: 1.0}).matrices]
+        slope, bend = (each[:, :3, :3] @ at + each[:, :3, 3] for each in rates)
+        rows = np.asarray(swept.points(part, at), float), slope, bend, np.asarray(swept.closed)
+        return CurvePoints(*(each[: len(inputs)] for each in rows))
 
     def evaluate(inputs: Float[np.ndarray, " inputs"]) -> CurvePoints:
-        # all of few lengths, so that they share compiled programs
-        padded = np.pad(inputs, (0, 2 ** max(5, (len(inputs) - 1).bit_length()) - len(inputs)), mode="edge")
-        swept = motion.mechanism.sweep({drive: padded}, options=motion.options)
-        rates = velocities(swept, {drive: 1.0}), accelerations(swept, {drive: 1.0})
-        rows = (swept.points(part, at), *(each.points(part, at) for each in rates))
-        point, slope, bend = (np.asarray(each, float)[: len(inputs)] for each in rows)
-        return CurvePoints(point, slope, bend, np.asarray(swept.closed)[: len(inputs)])
+        found = [some(inputs[first : first + POSES]) for first in range(0, len(inputs), POSES)]
+        return CurvePoints(*map(np.concatenate, zip(*found, strict=True)))
 
     return evaluate
 

@@ -21,6 +21,7 @@ from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.pose import Pose
 from jaxkin.solve.device import group_for_device, on_cpu
+from jaxkin.solve.execution.compiler import whole_program
 from jaxkin.solve.execution.cores import available_cores, in_threads
 from jaxkin.solve.options import SolverOptions
 
@@ -92,7 +93,7 @@ def _one_number(value: Any) -> Float[Array, ""]:
     return jnp.asarray(value, float)
 
 
-@partial(jax.jit, static_argnums=0)
+@partial(whole_program, static=(0,))
 def value_and_slopes(measured: DesignMeasure, mechanism: Mechanism, driven: tuple, design: Float[Array, " numbers"]):
     """Evaluate one design: value, whether it is reached, and the derivatives of the value by its numbers."""
 
@@ -104,7 +105,7 @@ def value_and_slopes(measured: DesignMeasure, mechanism: Mechanism, driven: tupl
     return value, reached, slopes
 
 
-@partial(jax.jit, static_argnums=0)
+@partial(whole_program, static=(0,))
 def evaluate_batch(
     measured: DesignMeasure, mechanism: Mechanism, driven: tuple, designs: Float[Array, "designs numbers"]
 ):

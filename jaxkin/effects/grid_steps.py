@@ -25,6 +25,7 @@ from jaxkin.solve.continuation.input_slopes import input_slopes
 from jaxkin.solve.continuation.step import MAX_DEVIATION, MAX_TRAVEL
 from jaxkin.solve.correctors.levenberg_marquardt import levenberg_marquardt
 from jaxkin.solve.correctors.problem import ClosureProblem
+from jaxkin.solve.execution.compiler import whole_program
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import CLOSED_ROUNDINGS, rounding_residual
 from jaxkin.solve.system.equation_blocks import equation_blocks
@@ -153,7 +154,7 @@ def _scales(system: LoopSystem, joints: Joints) -> Float[Array, "columns 1"]:
     return scaled_geometry(system, joints)[1]
 
 
-@partial(jax.jit, static_argnums=(0, 1))
+@partial(whole_program, static=(0, 1))
 def _walk(
     systems: tuple[LoopSystem, ...],
     options: SolverOptions,

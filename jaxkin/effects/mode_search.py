@@ -10,7 +10,6 @@ from functools import partial
 from itertools import product
 from typing import NamedTuple
 
-import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float, Int
@@ -27,6 +26,7 @@ from jaxkin.solve.closure.closure import scaled_geometry
 from jaxkin.solve.closure.joint_coordinates import ball_rotations, joint_coordinates
 from jaxkin.solve.correctors.levenberg_marquardt import levenberg_marquardt
 from jaxkin.solve.correctors.problem import ClosureProblem
+from jaxkin.solve.execution.compiler import whole_program
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import CLOSED_ROUNDINGS, rounding_residual
 from jaxkin.solve.system.joints import Joints
@@ -209,7 +209,7 @@ def _by_formulas(
     return np.asarray(rows).T, np.broadcast_to(residual, len(choices)), names
 
 
-@partial(jax.jit, static_argnums=0)
+@partial(whole_program, static=(0,))
 def _formula_poses(
     system: LoopSystem, joints: Joints, signs: Float[Array, "groups poses"], inputs: Float[Array, "driven poses"]
 ) -> tuple[Float[Array, "columns poses"], Float[Array, " poses"]]:
@@ -263,7 +263,7 @@ def _start_ranges(loop_group: DrivenLoopGroup, loops: ClosedLoops, slide: float)
     return start_ranges(np.array(loop_group.system.is_length), pitch, slide, couplings, carried)
 
 
-@partial(jax.jit, static_argnums=(0, 1))
+@partial(whole_program, static=(0, 1))
 def _closed(
     system: LoopSystem, options: SolverOptions, joints: Joints, state: State, inputs: Float[Array, "driven starts"]
 ) -> tuple[Float[Array, "columns starts"], Float[Array, " starts"]]:

@@ -29,7 +29,7 @@ from jaxkin.effects.pose_shards import in_shards
 from jaxkin.geometry.movements import is_length
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.coordinates import resolve
-from jaxkin.linkage.joint_motion import transforms
+from jaxkin.linkage.joint_motion import moved_point, transforms
 from jaxkin.mechanism.collect import nan_where_not_finite
 from jaxkin.mechanism.known_motion import Inputs, JointRates, KnownDrive, KnownMotion, derivatives, follow, known_motion
 from jaxkin.mechanism.motion import Motion, as_point
@@ -145,26 +145,14 @@ class Rates(Result):
 
         World axes; the unit of the mechanism per time to the power of the order.
         """
-        matrices = self.transforms[_known(self.motion, part)]
-        return jnp.einsum("pij,j->pi", matrices[:, :3, :3], as_point(point)) + matrices[:, :3, 3]
+        return moved_point(self.transforms[_known(self.motion, part)], as_point(point))
 
     def angular(self, part: str) -> Float[Array, "poses 3"]:
         """Compute angular velocity (acceleration, jerk) of a part; world axes, radians per time to the power of the
         order."""
-        rotation = self.motion.transforms[_known(self.motion, part)][:, :3, :3]
+        place = self.motion.transforms[_known(self.motion, part)]
         number = self.motion.mechanism.parts.index(part)
-
-        def skew_part(matrices: Float[Array, "poses 4 4"]) -> Float[Array, "poses 3"]:
-            return vee(jnp.einsum("pij,pkj->ikp", matrices[:, :3, :3], rotation)).T
-
-        # the second derivative of R times R^T is [alpha] + [omega]^2, of which the skew part is [alpha]
-        *lower, found = (skew_part(matrices[number]) for matrices in self.matrices)
-        if len(lower) < 2:
-            return found
-        # the third one is [rate of alpha] + 2 [alpha][omega] + [omega][alpha] + [omega]^3
-        omega, alpha = lower
-        square = jnp.sum(omega**2, axis=1, keepdims=True)
-        return found - 0.5 * jnp.cross(alpha, omega) + square * omega
+        return _angular(tuple(every[number] for every in self.matrices), place)
 
 
 jax.tree_util.register_dataclass(Rates, data_fields=["motion", "inputs", "orders"], meta_fields=[])
@@ -242,6 +230,25 @@ def _part_rates(
     """
     finite = jnp.all(jnp.stack([jnp.all(jnp.isfinite(rows), axis=1) for rows in orders[-1]]), axis=0)
     return nan_where_not_finite(derivatives(partial(transforms, structure, joints), orders), finite)
+
+
+@partial(whole_program, static=())
+def _angular(
+    matrices: tuple[Float[Array, "poses 4 4"], ...], place: Float[Array, "poses 4 4"]
+) -> Float[Array, "poses 3"]:
+    """Compute `Rates.angular` of a part from its transform and the derivatives of that, by order."""
+
+    def skew_part(derivative: Float[Array, "poses 4 4"]) -> Float[Array, "poses 3"]:
+        return vee(jnp.einsum("pij,pkj->ikp", derivative[:, :3, :3], place[:, :3, :3])).T
+
+    # the second derivative of R times R^T is [alpha] + [omega]^2, of which the skew part is [alpha]
+    *lower, found = map(skew_part, matrices)
+    if len(lower) < 2:
+        return found
+    # the third one is [rate of alpha] + 2 [alpha][omega] + [omega][alpha] + [omega]^3
+    omega, alpha = lower
+    square = jnp.sum(omega**2, axis=1, keepdims=True)
+    return found - 0.5 * jnp.cross(alpha, omega) + square * omega
 
 
 def tangents_of(motion: Motion, rates: Mapping[str, Any]) -> Inputs:

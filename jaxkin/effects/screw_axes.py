@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float
+from jaxtyping import Array, Bool, Float
 
 from jaxkin._guesses import Result
 from jaxkin.effects.rates import Rates
 from jaxkin.geometry.movements import is_length
+from jaxkin.joints.joint import Joint
+from jaxkin.mechanism.known_motion import JointRates
+from jaxkin.solve.execution.compiler import whole_program
 
 ROUNDING = 100.0
 """Angular speed of a part, over the largest one of a joint and the precision of numbers, up to which the part does not
@@ -85,15 +89,38 @@ def screw_axes(velocities: Rates, part: str) -> ScrewAxes:
             "screw axes are those of jk.velocities(motion, rates), got derivatives of order "
             f"{velocities.order}: of accelerations and jerks there are none"
         )
-    omega, place = velocities.angular(part), velocities.motion.transforms[part]
-    square = jnp.sum(omega**2, axis=1, keepdims=True)
-    known, turns = velocities.closed & ~jnp.isnan(square[:, 0]), square > _rounding(velocities)[:, None] ** 2
-    # poses without an axis are zeros here, since NaN would spoil the derivatives of all poses, and NaN at the end
-    omega, shift, velocity = (
-        jnp.where(turns, rows, 0.0) for rows in (omega, place[:, :3, 3], velocities.transforms[part][:, :3, 3])
+    number, mechanism = velocities.motion.mechanism.parts.index(part), velocities.motion.mechanism
+    direction, point, moving, pitch, speed = _axes(
+        tuple(mechanism.joints.values()),
+        velocities.displacements,
+        velocities.closed,
+        velocities.angular(part),
+        velocities.motion.transforms[part],
+        velocities.matrices[0][number],
     )
+    return ScrewAxes(direction, point, moving, pitch, speed, part, mechanism.unit)
+
+
+@partial(whole_program, static=())
+def _axes(
+    joints: tuple[Joint, ...],
+    rates: JointRates,
+    closed: Bool[Array, " poses"],
+    omega: Float[Array, "poses 3"],
+    place: Float[Array, "poses 4 4"],
+    velocity: Float[Array, "poses 4 4"],
+) -> tuple[Float[Array, "poses 3"], Float[Array, "poses 3"], Float[Array, "poses 3"], Float[Array, " poses"], ...]:
+    """Compute direction, point, moving point, pitch and angular speed of `ScrewAxes`.
+
+    `omega` is the angular velocity of the part, `place` its transform and `velocity` the derivative of that; `rates`
+    are those of all joints.
+    """
+    square = jnp.sum(omega**2, axis=1, keepdims=True)
+    known, turns = closed & ~jnp.isnan(square[:, 0]), square > _rounding(joints, rates)[:, None] ** 2
+    # poses without an axis are zeros here, since NaN would spoil the derivatives of all poses, and NaN at the end
+    omega, shift, slides = (jnp.where(turns, rows, 0.0) for rows in (omega, place[:, :3, 3], velocity[:, :3, 3]))
     rotation = jnp.where(turns[..., None], place[:, :3, :3], 0.0)
-    at_origin = velocity - jnp.cross(omega, shift)
+    at_origin = slides - jnp.cross(omega, shift)
     square = jnp.where(turns, jnp.sum(omega**2, axis=1, keepdims=True), 1.0)
     point = jnp.cross(omega, at_origin) / square
     moving = jnp.einsum("pji,pj->pi", rotation, point - shift)
@@ -102,19 +129,16 @@ def screw_axes(velocities: Rates, part: str) -> ScrewAxes:
     direction, point, moving, pitch = (
         jnp.where(turns, rows, jnp.nan) for rows in (omega / speed, point, moving, pitch)
     )
-    angular_speed = jnp.where(known, jnp.where(turns, speed, 0.0)[:, 0], jnp.nan)
-    unit = velocities.motion.mechanism.unit
-    return ScrewAxes(direction, point, moving, pitch[:, 0], angular_speed, part, unit)
+    return direction, point, moving, pitch[:, 0], jnp.where(known, jnp.where(turns, speed, 0.0)[:, 0], jnp.nan)
 
 
-def _rounding(velocities: Rates) -> Float[Array, " poses"]:
+def _rounding(joints: tuple[Joint, ...], rates: JointRates) -> Float[Array, " poses"]:
     """Bound the angular speed that rounding leaves a part that does not turn, by the largest one of a joint."""
-    joints = velocities.motion.mechanism.joints.values()
     angles = [
-        jnp.abs(rates[:, column])
-        for joint, rates in zip(joints, velocities.displacements, strict=True)
+        jnp.abs(rows[:, column])
+        for joint, rows in zip(joints, rates, strict=True)
         for column, coordinate in enumerate(joint.coordinates)
         if not is_length(coordinate)
     ]
-    still = jnp.zeros(len(velocities.closed))
+    still = jnp.zeros(len(rates[0]))
     return ROUNDING * jnp.finfo(still.dtype).eps * jnp.max(jnp.stack([still, *angles]), axis=0)

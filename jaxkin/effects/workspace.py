@@ -30,6 +30,7 @@ from jaxkin.mechanism.drive_plan import DrivePlan, plan_drive
 from jaxkin.mechanism.joint_limits import beyond_as_assembled, with_limited
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion, as_point
+from jaxkin.solve.execution.compiler import whole_program
 from jaxkin.solve.options import SolverOptions, options_with
 from jaxkin.solve.range.poses import RangePoses
 from jaxkin.solve.range.solve_range import displacements
@@ -264,7 +265,7 @@ class _Layout(NamedTuple):
     part: int
 
 
-@partial(jax.jit, static_argnums=0)
+@partial(whole_program, static=(0,))
 def _evaluate(
     layout: _Layout,
     linkage: Linkage,

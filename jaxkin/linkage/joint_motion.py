@@ -86,6 +86,7 @@ def _numbers_of(q: Float[Array, "poses _"]) -> tuple[Float[Array, "poses _"], Bo
     return jnp.where(finite[:, None], q, 0.0), finite
 
 
+@partial(jax.jit, static_argnums=2)
 def point_path(
     linkage: Linkage, displacements: JointDisplacements, part: str, point: Float[Array, "3"]
 ) -> Float[Array, "poses 3"]:
@@ -102,6 +103,12 @@ def point_path(
         q, finite = _numbers_of(jnp.asarray(displacements[joint]))
         here, known = _displace_by_joint(linkage.joints[joint], q, here, sign), known & finite
     return jnp.where(known, here, jnp.nan).T
+
+
+@jax.jit
+def moved_point(transforms: Float[Array, "poses 4 4"], point: Float[Array, "3"]) -> Float[Array, "poses 3"]:
+    """Apply transforms of a part, or derivatives of these, to a point of the part in the assembled pose."""
+    return jnp.einsum("pij,j->pi", transforms[:, :3, :3], point) + transforms[:, :3, 3]
 
 
 def _displace_by_joint(joint: Joint, q: Float[Array, "poses _"], point: Float[Array, "3 #poses"], sign: int) -> Array:

@@ -74,14 +74,12 @@ class KnownMotion(NamedTuple):
 
 
 def some_poses(motion: Motion, chosen: Int[np.ndarray, " chosen"]) -> Motion:
-    """Make the motion of some poses of another one, by their numbers."""
-    return replace(
-        motion,
-        inputs={name: values[chosen] for name, values in motion.inputs.items()},
-        displacements=tuple(values[chosen] for values in motion.displacements),
-        status=motion.status[chosen],
-        residual=motion.residual[chosen],
+    """Make the motion of some poses of another one, by their numbers (host code)."""
+    inputs, displacements, status, residual = jax.tree.map(
+        lambda values: np.asarray(values)[chosen],
+        (dict(motion.inputs), motion.displacements, motion.status, motion.residual),
     )
+    return replace(motion, inputs=inputs, displacements=displacements, status=status, residual=residual)
 
 
 def known_motion(motion: Motion) -> tuple[KnownDrive, KnownMotion]:

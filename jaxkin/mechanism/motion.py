@@ -23,7 +23,7 @@ from jaxkin._traced import traced
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.pose import is_rigid
 from jaxkin.linkage.coordinates import coordinate
-from jaxkin.linkage.joint_motion import part_transforms, point_path
+from jaxkin.linkage.joint_motion import moved_point, part_transforms, point_path
 from jaxkin.mechanism.joint_limits import Breach, breaches, excesses, first_within, limit_report
 from jaxkin.mechanism.pose_error import check
 from jaxkin.mobility.infeasible_drive import dead_point, undriven_freedoms
@@ -164,8 +164,7 @@ class Motion(Guided):
             raise ValueError(f"there is no part {part!r}{nearest(part, self.mechanism.parts)}")
         if traced((self.mechanism.linkage, self.displacements, point)):
             return point_path(self.mechanism.linkage, self.displacements, part, as_point(point))
-        transforms = self.transforms[part]
-        return jnp.einsum("pij,j->pi", transforms[:, :3, :3], as_point(point)) + transforms[:, :3, 3]
+        return moved_point(self.transforms[part], as_point(point))
 
     def save(self, directory: str | os.PathLike[str], only: str | Collection[str] | None = None) -> tuple[Path, ...]:
         """Write tables, animation and pictures into a directory, or one file, as in "rocker.csv"; returns the paths.

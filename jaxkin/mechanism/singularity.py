@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial, reduce
 from typing import TYPE_CHECKING
 
 import jax.numpy as jnp
@@ -12,14 +13,17 @@ from jaxkin._names import listed
 from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.first_order import Columns, null_space
+from jaxkin.linkage.joint_motion import JointDisplacements
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.loop_freedoms import loop_freedoms
 from jaxkin.solve.closure.smallest_singular_value import smallest_singular_value
+from jaxkin.solve.execution.compiler import whole_program
 from jaxkin.solve.system.from_linkage import group_joints, group_system
+from jaxkin.solve.system.joints import Joints
+from jaxkin.solve.system.loop_system import LoopSystem
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.motion import Motion
-    from jaxkin.solve.system.loop_system import LoopSystem
 
 DETERMINED = 1e-3
 """Relative error of rates up to which they count as determined. Those of a parallelogram 1e-5 rad beside its change
@@ -52,18 +56,26 @@ def sigma_min(motion: Motion) -> Float[Array, " poses"]:
     if traced(linkage) or not motion.swept:
         linkage = linkage.in_space
     driven = [coordinate(linkage, name) for name in motion.inputs]
-    least = jnp.full(len(motion), jnp.inf, motion.residual.dtype)
+    found = [jnp.full(len(motion), jnp.inf, motion.residual.dtype)]
     for number, (loop_group, loop_class) in enumerate(zip(linkage.structure.loop_groups, linkage.classes, strict=True)):
         inside = tuple(entry for entry in driven if entry[0] in loop_group.joints)
         system, columns = group_system(linkage, loop_group, inside, loop_class)
         if inside and (rank := _rank(linkage, number, system, columns)):
-            rows = jnp.stack([motion.displacements[joint][:, coordinate] for joint, coordinate in columns])
             joints = group_joints(linkage, linkage.solved_joints, loop_group)
-            # poses without numbers stand at rest until the end: NaN would spoil the derivatives of all poses
-            finite = jnp.all(jnp.isfinite(rows), axis=0)
-            sigma = smallest_singular_value(system, rank, joints, jnp.where(finite, rows, 0.0))
-            least = jnp.minimum(least, jnp.where(finite, sigma, jnp.nan))
-    return least
+            found.append(_of_group(system, rank, tuple(columns), joints, motion.displacements))
+    return reduce(jnp.minimum, found[1:] or found)
+
+
+@partial(whole_program, static=(0, 1, 2))
+def _of_group(
+    system: LoopSystem, rank: int, columns: Columns, joints: Joints, displacements: JointDisplacements
+) -> Float[Array, " poses"]:
+    """Compute the smallest singular value of a loop group from the displacements of all joints; NaN where those of the
+    group are not finite."""
+    rows = jnp.stack([displacements[joint][:, coordinate] for joint, coordinate in columns])
+    # poses without numbers stand at rest until the end: NaN would spoil the derivatives of all poses
+    finite = jnp.all(jnp.isfinite(rows), axis=0)
+    return jnp.where(finite, smallest_singular_value(system, rank, joints, jnp.where(finite, rows, 0.0)), jnp.nan)
 
 
 def _rank(linkage: Linkage, number: int, system: LoopSystem, columns: Columns) -> int:

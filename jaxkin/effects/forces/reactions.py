@@ -118,7 +118,7 @@ class Reactions(Result):
 
     def _what_is_held(self, most: float) -> list[str]:
         """Say which coordinates without a drive would have to be held, for forces up to `most`."""
-        lever = float(Scale.of(self.motion.mechanism.linkage).size) * METRES[self.motion.mechanism.unit]
+        lever = float(Scale.of(self.motion.mechanism.linkage, np).size) * METRES[self.motion.mechanism.unit]
         found = []
         for name, joint in self.motion.mechanism.joints.items():
             for k, full_name in enumerate(joint.full_names):

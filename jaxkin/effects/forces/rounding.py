@@ -47,7 +47,7 @@ def force_terms(
     the middle and from the origin of the world: their rounding is in the force. Zero in poses that are not closed.
     """
     linkage, unit = motion.mechanism.linkage, motion.mechanism.unit
-    scale = Scale.of(linkage)
+    scale = Scale.of(linkage, np)
     size, middle = float(scale.size), np.asarray(scale.middle, float)
     rates = velocities(motion, {each: float(each == name) for each in motion.inputs})
     going = _going(motion, [np.abs(np.asarray(rows, float)) for rows in rates.displacements], size, middle)
@@ -73,7 +73,7 @@ def weights_of_all(motion: Motion, name: str, masses: Masses | None, gravity: An
     """Add up all weights, newtons; for an angle times their distances from the middle and its size, newton metres."""
     if masses is None:
         return 0.0
-    size, middle = Scale.of(motion.mechanism.linkage)
+    size, middle = Scale.of(motion.mechanism.linkage, np)
     arms = np.linalg.norm(np.asarray(masses.centre) - np.asarray(middle), axis=1) + float(size)
     lever = 1.0 if is_length(name.rpartition(".")[2]) else arms * METRES[motion.mechanism.unit]
     return float(np.linalg.norm(np.asarray(gravity, float)) * np.sum(np.asarray(masses.mass) * lever))

@@ -33,10 +33,10 @@ class Scale(NamedTuple):
     """The centroid of the joint frames in the assembled pose, world coordinates."""
 
     @staticmethod
-    def of(linkage: Linkage) -> Scale:
-        """Find size and middle of a linkage."""
-        origins = jnp.concatenate([jnp.asarray(joint.frames_1, float) for joint in linkage.joints])[:, :3, 3]
-        middle, size = centroid_and_length(origins)
+    def of(linkage: Linkage, xp: Any = jnp) -> Scale:
+        """Find size and middle of a linkage, by jax.numpy or numpy as `xp`."""
+        origins = xp.concatenate([xp.asarray(joint.frames_1, float) for joint in linkage.joints])[:, :3, 3]
+        middle, size = centroid_and_length(origins, xp)
         return Scale(size, middle)
 
     def arm(self, points: Float[Array, "3 *poses"]) -> Float[Array, "3 *poses"]:

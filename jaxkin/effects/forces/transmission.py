@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float
+from jaxtyping import Array, Bool, Float
 
 from jaxkin._arguments import check_motion
 from jaxkin._guesses import Result
@@ -26,8 +27,12 @@ from jaxkin.effects.rates import velocities
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.root import root
 from jaxkin.geometry.units import METRES
+from jaxkin.joints.joint import JointCoordinate
 from jaxkin.linkage.coordinates import coordinate
+from jaxkin.linkage.joint_motion import JointDisplacements
+from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.motion import Motion
+from jaxkin.solve.execution.compiler import whole_program
 
 PASSES = 1e-9
 """Work of the force at the joint over that of the output, were they in one line, above which it is a force: where it
@@ -128,24 +133,52 @@ def transmission(motion: Motion, output: str, *, joint: str | None = None) -> Tr
     load = joint_load(full, 1.0)
     force = drive_forces(motion, applied=load).forces[name]
     found = reactions(motion, applied=load)
+    normal = mechanism.linkage.normal([number], decoupled=True)
+    angle = _angle(
+        (number, index),
+        mechanism.unit,
+        mechanism.linkage,
+        motion.displacements,
+        motion.closed,
+        (found.forces[through], found.points[through]),
+        None if normal is None else (normal, motion.transforms[part]),
+    )
+    ratio = nan_unless_closed(motion, speeds.displacements[number][:, index])
+    return Transmission(motion, name, full, through, ratio, -1.0 / force, angle)
+
+
+@partial(whole_program, static=(0, 1))
+def _angle(
+    output: JointCoordinate,
+    unit: str,
+    linkage: Linkage,
+    displacements: JointDisplacements,
+    closed: Bool[Array, " poses"],
+    passed_on: tuple[Float[Array, "poses 3"], Float[Array, "poses 3"]],
+    plane: tuple[Float[Array, "3"], Float[Array, "poses 4 4"]] | None,
+) -> Float[Array, " poses"]:
+    """Compute `Transmission.angle`, from the force on the output part that is `passed_on`, and the point where it acts.
+
+    `plane` is the normal of the plane in which the loops move, in the assembled pose, and the transform of the output
+    part; None where there is no plane.
+    """
+    number, index = output
     # poses that are not closed have zeros here, since NaN would spoil the derivatives of all poses, and NaN at the end
-    closed = motion.closed[:, None]
-    push, point = (jnp.where(closed, rows[through], 0.0) for rows in (found.forces, found.points))
-    if (normal := mechanism.linkage.normal([number], decoupled=True)) is not None:
+    push, point = (jnp.where(closed[:, None], rows, 0.0) for rows in passed_on)
+    if plane is not None:
         # links lie side by side, and what that puts along their pins is shared by stiffness, and moves nothing
-        normal = jnp.einsum("pij,j->pi", jnp.where(closed[..., None], motion.transforms[part], 0.0)[:, :3, :3], normal)
+        normal, place = plane
+        normal = jnp.einsum("pij,j->pi", jnp.where(closed[:, None, None], place, 0.0)[:, :3, :3], normal)
         push = push - jnp.sum(push * normal, axis=1, keepdims=True) * normal
     # the velocity of the point of the output part that is there now, relative to the other part of the output joint: by
     # the output alone, which has a direction also where the output rests
-    at = places(mechanism.linkage, tuple(jnp.where(closed, q, 0.0) for q in motion.displacements), chords=True)
-    turn = at.joints[number].coordinates(own)[index]
-    velocity = velocity_at(turn, at.scale.arm(point.T)).T
-    velocity = velocity * (1.0 if is_length(own.coordinates[index]) else at.scale.size * METRES[mechanism.unit])
+    at = places(linkage, tuple(jnp.where(closed[:, None], q, 0.0) for q in displacements), chords=True)
+    own = linkage.joints[number]
+    velocity = velocity_at(at.joints[number].coordinates(own)[index], at.scale.arm(point.T)).T
+    velocity = velocity * (1.0 if is_length(own.coordinates[index]) else at.scale.size * METRES[unit])
     along = jnp.abs(jnp.sum(push * velocity, axis=1))
     across = root(jnp.sum(jnp.cross(push, velocity) ** 2, axis=1))
     square = jnp.sum(push**2, axis=1) * jnp.sum(velocity**2, axis=1)
-    passes = motion.closed & (square > PASSES**2)
-    ratio = nan_unless_closed(motion, speeds.displacements[number][:, index])
+    passes = closed & (square > PASSES**2)
     # the arc sine of a right angle has no derivative, and half of its digits
-    angle = jnp.where(passes, jnp.arctan2(along, jnp.where(passes, across, 1.0)), jnp.nan)
-    return Transmission(motion, name, full, through, ratio, -1.0 / force, angle)
+    return jnp.where(passes, jnp.arctan2(along, jnp.where(passes, across, 1.0)), jnp.nan)

@@ -127,7 +127,7 @@ def _at(
     for number, joint in enumerate(linkage.joints):
         wrench = bases[number] @ open_ones[:, np.array(owner, int) == number].T
         axes = (
-            np.asarray(motion.transforms[joint.parts[1]][pose], float)[:3, :3] @ np.asarray(joint.frames_2[-1])[:3, :3]
+            np.asarray(motion.transforms[joint.parts[1]], float)[pose, :3, :3] @ np.asarray(joint.frames_2[-1])[:3, :3]
         )
         own = np.concatenate([axes.T @ wrench[:3], axes.T @ wrench[3:]])
         which = np.linalg.norm(own, axis=1) > _told(system).share
