@@ -14,6 +14,7 @@ from jaxtyping import Float, Int
 
 from jaxkin.effects.clash_shapes import ClashShape
 from jaxkin.geometry.displaced import Displaced
+from jaxkin.geometry.enclosed import may_be_inside
 from jaxkin.geometry.tree_crossings import Slack
 from jaxkin.geometry.triangle_distance import edge_places
 
@@ -71,6 +72,7 @@ def _deepen(
     """Raise the depth of each pose to that of its deepest point in a shape, if it is deeper than what is allowed."""
     low, high = other.tree.low[0] + slack.least, other.tree.high[0] - slack.least
     (inside,) = np.nonzero(np.all((points > low) & (points < high), axis=-1))
+    inside = inside[may_be_inside(other.tree, points[inside])]
     height, nearest = other.tree.signed_distances(points[inside])
     deep = -height > slack.least + allowed[inside] + slack.second[other.labels[nearest]]
     np.maximum.at(found, pose[inside][deep], -height[deep])

@@ -7,6 +7,7 @@ from jaxtyping import Float, Int
 
 from jaxkin.effects.clash_shapes import ClashShape
 from jaxkin.geometry.displaced import Displaced
+from jaxkin.geometry.enclosed import may_be_inside
 from jaxkin.geometry.tree_crossings import Slack
 from jaxkin.geometry.triangle_distance import Points
 
@@ -71,12 +72,15 @@ def _inside(
     near = np.ones((count, len(points)), bool)
     for along, low, high in zip(places, other.tree.low[0], other.tree.high[0], strict=True):
         near &= (along > low + allowed) & (along < high - allowed)
-    for stride in _STRIDES:
+    for stride in _STRIDES if count > _STRIDES[0] else (1,):
         begin = np.arange(0, count, stride)
         group, point = np.nonzero(np.logical_or.reduceat(near, begin, axis=0))
         if not len(point):
             break
         place = places[:, np.minimum(begin + stride // 2, count - 1)[group], point]
+        if stride == 1:
+            inside = may_be_inside(other.tree, np.ascontiguousarray(place.T))
+            group, point, place = group[inside], point[inside], place[:, inside]
         height, nearest = other.tree.signed_distances(np.ascontiguousarray(place.T))
         if stride == 1:
             deep = -height > allowed[point] + slack[other.labels[nearest]]
