@@ -92,13 +92,7 @@ class Part:
     @cached_property
     def outermost(self) -> Float[np.ndarray, "corners 3"]:
         """Corners whose convex hull is that of all corners, few of a large part; all corners of a flat part."""
-        from scipy.spatial import ConvexHull, QhullError
-
-        corners = self.triangles.reshape(-1, 3)
-        try:
-            return corners[ConvexHull(corners).vertices]
-        except QhullError:
-            return corners
+        return outermost(self.triangles.reshape(-1, 3))
 
     @property
     def extent(self) -> float:
@@ -110,6 +104,16 @@ class Part:
         """Volume inside of the triangles, in the cube of the unit: one sixth of the sum of their triple products."""
         corners = self.triangles - self.box.mean(axis=0)
         return float(abs(np.einsum("ti,ti->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))) / 6)
+
+
+def outermost(points: Float[np.ndarray, "_ 3"]) -> Float[np.ndarray, "_ 3"]:
+    """Choose points whose convex hull is that of all points, few of many; all of flat ones."""
+    from scipy.spatial import ConvexHull, QhullError
+
+    try:
+        return points[ConvexHull(points).vertices]
+    except QhullError:
+        return points
 
 
 def heaviest(names: Sequence[str], solids: Mapping[str, Part]) -> str:

@@ -12,11 +12,16 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Int
+from jaxtyping import Float, Int
 
 from jaxkin.geometry.displaced import Displaced
+from jaxkin.geometry.part import outermost
 from jaxkin.geometry.pose_intervals import PoseIntervals, pose_intervals
+from jaxkin.geometry.triangle_distance import Points
 from jaxkin.geometry.triangle_tree import TriangleTree
+
+_AT_ONCE = 1 << 22
+"""Coordinates of corners along directions that are held at once."""
 
 
 class Forest(NamedTuple):
@@ -28,6 +33,8 @@ class Forest(NamedTuple):
     """The node that holds each solid."""
     first: Int[np.ndarray, " solids"]
     """The first triangle of each solid."""
+    corners: tuple[Points, ...]
+    """Of each solid the corners of its convex hull."""
 
 
 def forest(trees: Sequence[TriangleTree]) -> Forest:
@@ -47,7 +54,7 @@ def forest(trees: Sequence[TriangleTree]) -> Forest:
         np.concatenate([each.own_middles for each in trees], axis=-1),
         np.concatenate([each.own_halves for each in trees], axis=-1),
     )
-    return Forest(joined, roots, first)
+    return Forest(joined, roots, first, tuple(outermost(each.triangles.reshape(-1, 3)) for each in trees))
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,10 +64,9 @@ class SolidPairs:
     What is found for them is in the order of all these displacements; a *place* is an index of that order.
     """
 
-    tree: TriangleTree
-    """The solids, a forest."""
-    roots: Int[np.ndarray, "pairs 2"]
-    """The nodes that hold the two solids of each pair."""
+    solids: Forest
+    numbers: Int[np.ndarray, "pairs 2"]
+    """The two solids of each pair."""
     displaced: Displaced
     begin: Int[np.ndarray, " pairs"]
     """The place of the first displacement of each pair, which has one at least."""
@@ -71,12 +77,22 @@ class SolidPairs:
         counts = [len(each.shift) for each in displaced]
         rotation, shift = (np.concatenate(rows) for rows in zip(*displaced, strict=True))
         begin = np.cumsum([0, *counts])[:-1]
-        return SolidPairs(solids.tree, solids.roots[np.asarray(pairs)], Displaced(rotation, shift), begin)
+        return SolidPairs(solids, np.asarray(pairs), Displaced(rotation, shift), begin)
 
     @staticmethod
     def one(first: TriangleTree, second: TriangleTree, displaced: Displaced) -> SolidPairs:
         """Make a list of a single pair."""
         return SolidPairs.of(forest([first, second]), [(0, 1)], [displaced])
+
+    @property
+    def tree(self) -> TriangleTree:
+        """The tree of all solids."""
+        return self.solids.tree
+
+    @cached_property
+    def roots(self) -> Int[np.ndarray, "pairs 2"]:
+        """The nodes that hold the two solids of each pair."""
+        return self.solids.roots[self.numbers]
 
     @cached_property
     def pair(self) -> Int[np.ndarray, " places"]:
@@ -100,4 +116,22 @@ class SolidPairs:
     def at(self, places: Int[np.ndarray, " _"]) -> SolidPairs:
         """Choose some of the displacements, in order; a pair that has none of them is left out."""
         pairs, begin = np.unique(self.pair[places], return_index=True)
-        return SolidPairs(self.tree, self.roots[pairs], self.displaced.at(places), begin)
+        return SolidPairs(self.solids, self.numbers[pairs], self.displaced.at(places), begin)
+
+    def ahead(self, direction: Float[np.ndarray, "3 places"]) -> Float[np.ndarray, " places"]:
+        """Measure how far all of the second solid is ahead of all of the first, along a direction at each place in the
+        axes of the first: less than 0 where they overlap along it. Their distance is no less."""
+        turned = np.einsum("pij,ip->jp", self.displaced.rotation, direction)
+        found = np.einsum("pi,ip->p", self.displaced.shift, direction)
+        found += _least(self.solids.corners, self.numbers[self.pair, 1], turned)
+        return found + _least(self.solids.corners, self.numbers[self.pair, 0], -direction)
+
+
+def _least(corners: Sequence[Points], solid: np.ndarray, direction: np.ndarray) -> np.ndarray:
+    """Find the least coordinate along directions, (3, _), of the corners of a solid each."""
+    found = np.zeros(len(solid))
+    for number in np.unique(solid):
+        (own,) = np.nonzero(solid == number)
+        for some in np.array_split(own, len(own) * len(corners[number]) // _AT_ONCE + 1):
+            found[some] = (corners[number] @ direction[:, some]).min(axis=0)
+    return found

@@ -47,6 +47,8 @@ def distances(pairs: SolidPairs, within: float) -> Float[np.ndarray, " places"]:
         (known,) = np.nonzero(nearest[of, 0] >= 0)
         search.measure(known, *nearest[of[known]].T)
     search.aim()
+    search.follow(pairs.alone(np.flatnonzero(search.limit)), _BEAM)
+    search.aim()
     search.follow(pairs.start(), None)
     return search.found
 
@@ -60,7 +62,7 @@ class _Search:
         self.found = np.full(count, np.inf)
         """Infinite where it is more than the limit that was asked for."""
         self.limit = np.full(count, np.nextafter(within, np.inf))
-        """What a distance must be below."""
+        """What a distance must be below; 0 where the distance is known."""
         self.nearest = np.full((count, 2), -1)
         """The triangles that are nearest; -1 where none is near."""
         self.direction = np.zeros((3, count))
@@ -71,12 +73,14 @@ class _Search:
         """Take the directions between the nearest triangles so far.
 
         Where solids are far from each other for the size of their features, such as two rounded edges across a hole,
-        nothing tells as well as this direction which of their triangles are not nearer.
+        nothing tells as well as this direction which of their triangles are not nearer. Where all of the one solid is
+        behind those of its triangles that are found, and all of the other ahead, the search is at its end.
         """
-        (known,) = np.nonzero(self.nearest[:, 0] >= 0)
+        (known,) = np.nonzero((self.nearest[:, 0] >= 0) & (self.limit > 0))
         triangles, (first, second) = self.pairs.tree.triangles, self.nearest[known].T
         found = directions(triangles[first], self.pairs.displaced.of(known, triangles[second]))
         self.direction[:, known] = found.T
+        self.limit[self.pairs.ahead(self.direction) >= self.limit * (1 - _NEARER)] = 0.0
 
     def follow(self, items: np.ndarray, beam: int | None) -> None:
         """Split items until they are single triangles that may be nearer, and measure these.
@@ -111,6 +115,9 @@ class _Search:
         """Measure single triangles at single displacements, items with their bounds, that may be nearer."""
         place = self.pairs.intervals.middle[leaves[:, 0]]
         first, second = self.pairs.tree.triangle[leaves[:, 1:]].T
+        bound = np.maximum(bound, self._ahead(place, first, second))
+        near = bound < self.limit[place] * (1 - _NEARER)
+        place, first, second, bound = place[near], first[near], second[near], bound[near]
         rank = _rank(place, bound)
         begin, size = 0, 1
         # the most promising of each displacement first: they lower the limit for the others
@@ -118,6 +125,12 @@ class _Search:
             now = (rank >= begin) & (rank < begin + size) & (bound < self.limit[place] * (1 - _NEARER))
             self.measure(place[now], first[now], second[now])
             begin, size = begin + size, 4 * size
+
+    def _ahead(self, place: np.ndarray, first: np.ndarray, second: np.ndarray) -> np.ndarray:
+        """Measure how far triangles of solid 2 are ahead of triangles of solid 1 along the direction of each place."""
+        triangles, direction = self.pairs.tree.triangles, self.direction.T[place, :, None]
+        other = self.pairs.displaced.of(place, triangles[second])
+        return (other @ direction).min(axis=(1, 2)) - (triangles[first] @ direction).max(axis=(1, 2))
 
     def _bounds(self, items: np.ndarray, limit: np.ndarray) -> Float[np.ndarray, "2 items"]:
         """Bound the distances of items from below; and tell, by 1, which to halve in time rather than in space."""
