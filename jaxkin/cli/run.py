@@ -87,7 +87,7 @@ def _swept(study: Study, out: Path) -> _Written:
         for name in study.effects:
             step(f"computing {name}")
             try:
-                results |= compute(motion, {name: study.effects[name]})
+                results |= compute(motion, {name: study.effects[name]}, step.within)
             except ValueError as error:
                 if not about_input(error):
                     raise

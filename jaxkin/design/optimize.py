@@ -25,7 +25,7 @@ from jaxkin.design.objective import Objective
 from jaxkin.design.optimisers import LBFGS, LevenbergMarquardt, Optimiser
 from jaxkin.design.problem import HOPELESS, Problem, design_problem
 from jaxkin.design.result import Optimum, judged_range
-from jaxkin.design.search import NOTHING, ProgressBar, search_with_multipliers, unsearched
+from jaxkin.design.search import NOTHING, search_with_multipliers, unsearched
 from jaxkin.design.solvers import TOGETHER, Solver
 from jaxkin.design.variables import Variables, spread, variables
 from jaxkin.solve.options import SolverOptions, options_with
@@ -130,7 +130,7 @@ def optimize(
     least_loss = np.min(np.abs(verdict.losses[np.isfinite(verdict.losses)]), initial=np.inf)
     size = np.sqrt(least_loss) if squares else least_loss
     if _some_matter(downhill, vectors, penalty, chosen, size):
-        bar = ProgressBar(solver.iterations, progress)
+        bar = ProgressBar(solver.iterations, progress, "compiling")
         designs, reason, history = search_with_multipliers(downhill, vectors, penalty, solver, bar)
         bar.close()
     else:

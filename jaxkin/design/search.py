@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import sys
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Bool, Float
 
+from jaxkin._progress import ProgressBar
 from jaxkin.design.augmented_lagrangian import MET, Penalty, Verdict, renewed, worth_more
 from jaxkin.design.optimisers import LevenbergMarquardt, Optimiser
 from jaxkin.design.solvers import CHUNK, Solver
@@ -107,7 +107,7 @@ def search(
         history.append(losses)
         now = np.where(active, losses[-1], last)
         least = float(np.min(now))
-        bar.show(done, least)
+        bar.show(done, f"loss {least:.3e}")
         if target is not None and least <= target:
             found = downhill.judge(downhill.vectors(state), penalty.shifts)
             if np.any((found.losses <= target) & (found.violations <= MET)):
@@ -141,26 +141,3 @@ def _better(losses, violations, losses_before, violations_before):
     """Find the starts whose design is feasible at less loss than before, or else violates less."""
     feasible, feasible_before = violations <= MET, violations_before <= MET
     return np.where(feasible, ~feasible_before | (losses < losses_before), violations < violations_before)
-
-
-class ProgressBar:
-    """A bar of progress on a terminal."""
-
-    def __init__(self, iterations: int, wanted: bool | None):
-        self.bar: Any = None
-        if sys.stderr.isatty() if wanted is None else wanted:
-            from rich.console import Console
-            from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
-
-            columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
-            self.bar = Progress(*columns, console=Console(stderr=True))
-            self.bar.start()
-            self.task = self.bar.add_task("compiling", total=iterations)
-
-    def show(self, done: int, least: float) -> None:
-        if self.bar:
-            self.bar.update(self.task, completed=done, description=f"loss {least:.3e}")
-
-    def close(self) -> None:
-        if self.bar:
-            self.bar.stop()

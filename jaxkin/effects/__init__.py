@@ -10,7 +10,8 @@ Each line names first the module of the function that users call.
 - `workspace`: a map over two inputs. `grid_flood` fills it by `grid_steps`; `singularities` are where it ends.
 - `mode_regions`: which modes a path over two inputs connects, by the same steps on several `sheets`.
 - `clashes`: where parts cut each other. `clash_shapes` are their solids, `clash_cases` what differs of their pairs and
-  poses, which `clash_search` searches; `penetration` and `sampled_depths` measure, and `invariant_faces` are left out.
+  poses, which `clash_search` searches; `penetration` and `sampled_depths` measure, and `invariant_faces` are left out;
+  `clash_progress` tells how far it is.
 - `contact_validity`: where the faces of contacts part. `curve_contacts`: where followers of curves cannot be, of
   each `curve_contact` and `surface_contact`.
 - `swept_volume`: the space that a part takes up, over its `pose_runs`.

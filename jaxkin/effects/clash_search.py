@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 from jaxtyping import Float
@@ -17,15 +17,21 @@ from jaxkin.geometry.solid_pairs import Forest, SolidPairs, forest
 from jaxkin.geometry.tree_crossings import Crossings, crossings, may_overlap
 from jaxkin.geometry.tree_distances import distances
 
-_AT_ONCE = 1 << 14
-"""Displacements of all pairs that are searched at once: what bounds the memory of their intervals."""
+_AT_ONCE = 1 << 12
+"""Displacements of all pairs that are searched at once: what bounds the memory of their intervals, and how often it is
+told how far the search has come."""
+_AT_FIRST = 1 << 9
+"""Displacements that are searched before the others, and tell how long these will take."""
 
 
-def clearances(cases: Sequence[ClashCase], within: float, still: float) -> list[Float[np.ndarray, " poses"]]:
+def clearances(
+    cases: Sequence[ClashCase], within: float, still: float, told: Callable[[int, int], None]
+) -> list[Float[np.ndarray, " poses"]]:
     """Measure the clearance of each case at each of its displacements; infinite beyond `within`.
 
     Less than 0 is the depth of a clash. Faces that all displacements of joined meshes leave in place, to `still`, may
-    touch; where joined meshes do not clash, the clearance is 0.
+    touch; where joined meshes do not clash, the clearance is 0. `told(done, total)` is called after each piece of the
+    displacements.
     """
     shapes: dict[int, ClashShape] = {}
     for case in cases:
@@ -33,15 +39,17 @@ def clearances(cases: Sequence[ClashCase], within: float, still: float) -> list[
     if not shapes:
         return []
     solids, at = forest([shape.tree for shape in shapes.values()]), {number: k for k, number in enumerate(shapes)}
-    found = []
+    found, done, total = [], 0, sum(len(case.moved.shift) for case in cases)
     for some in _pieces(cases):
         found += _Piece(some, solids, at, still).clearances(within)
+        done += sum(len(case.moved.shift) for case in some)
+        told(done, total)
     return found
 
 
 def _pieces(cases: Sequence[ClashCase]) -> Iterator[Sequence[ClashCase]]:
-    """Divide cases into pieces with so many displacements, or with one case."""
-    total = np.cumsum([len(case.moved.shift) for case in cases])
+    """Divide cases into pieces with so many displacements, fewer in the first, or with one case."""
+    total = np.cumsum([len(case.moved.shift) for case in cases]) + _AT_ONCE - _AT_FIRST
     for piece in np.split(np.arange(len(cases)), np.flatnonzero(np.diff(total // _AT_ONCE)) + 1):
         yield [cases[k] for k in piece]
 

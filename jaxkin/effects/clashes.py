@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from itertools import chain
 
 import numpy as np
 
 from jaxkin._arguments import check_known, check_motion, numbers, several
 from jaxkin._names import nearest
 from jaxkin.assembly.joined import all_contacts
+from jaxkin.assembly.kept_contacts import kept_contacts
 from jaxkin.effects.clash_cases import ClashCase, distinct_cases
+from jaxkin.effects.clash_progress import ClashProgress
 from jaxkin.effects.clash_result import Clashes
 from jaxkin.effects.clash_search import clearances
 from jaxkin.effects.clash_shapes import ClashPart, boxes_along, clash_parts, displaced, largest_step, near_pairs
@@ -31,17 +34,20 @@ def clashes(
     within: float | int | None = None,
     tolerance: float | int | None = None,
     ignore: Sequence[Sequence[str]] = (),
+    progress: bool | Callable[[int, int], None] | None = None,
 ) -> Clashes:
     """Find the parts that cut each other at the closed poses of a motion, and the clearances of the others.
 
     - `within`: clearances up to this length are measured, 2 % of the size of the mechanism by default; 0 measures none.
     - `tolerance`: overlap, a length, up to which parts count as touching; by default what counts as a contact.
     - `ignore`: pairs of parts that are left out, `[["bolt", "plate"]]`.
+    - `progress`: whether to draw a bar, by default on a terminal only; or a function that is called with how many
+      placements of two parts are searched, and with the number of all.
 
-    The parts of one rigid body are not compared. Faces that are in contact by design may overlap each other, as the
-    chords of a pin and of its hole do; each face may overlap others by the height of its chords, and by the misfit of
-    its contacts. So a pin in its own hole is no clash, but the same pin through a wall is. Overlaps that are less deep
-    than those lengths are not told.
+    The parts of one rigid body are not compared. Faces that are in contact by design, those that joints were read from
+    or that joints by hand keep on each other, may overlap, as the chords of a pin and of its hole do; each face may
+    overlap others by the height of its chords, and by the misfit of its contacts. So a pin in its own hole is no clash,
+    but the same pin through a wall is. Overlaps that are less deep than those lengths are not told.
 
     The depth is at most the largest distance from the surface of one part of a point of the surface of the other that
     is inside of it: it is that of the deepest of some points, which are corners of triangles, middles of the pieces of
@@ -49,8 +55,8 @@ def clashes(
     faces lie on each other, it is that of a point half-way through a part. Poses between those of the motion are not
     looked at, and of those that are not closed nothing is known.
 
-    Raises ValueError for a mechanism without solids, for names that are not there, for lengths that are negative, and
-    inside `jit`, `vmap` and `grad`.
+    Warns, as soon as it is known, of a search that will take longer than two minutes. Raises ValueError for a mechanism
+    without solids, for names that are not there, for lengths that are negative, and inside `jit`, `vmap` and `grad`.
     """
     check_motion(motion, "clashes")
     shapes = "jk.design.clearance of the shapes of two parts inside"
@@ -77,7 +83,8 @@ def clashes(
     misfits = _misfits(mechanism)
     cases = [_case(parts[i], parts[j], misfits, least, places[i][some], places[j][some]) for i, j, some in near]
     distinct = distinct_cases(cases, size(mechanism.solids))
-    measured = clearances(distinct.cases, within, still)
+    with ClashProgress(progress, _advice(within, mechanism.unit)) as told:
+        measured = clearances(distinct.cases, within, still, told)
     pairs, joined, rows = [], [], []
     for (i, j, some), case, which, poses in zip(near, cases, distinct.which, distinct.poses, strict=True):
         row = np.full(len(motion), np.nan)
@@ -90,6 +97,15 @@ def clashes(
     found = np.stack(rows) if rows else np.zeros((0, len(motion)))
     step = largest_step(mechanism.solids, places)
     return Clashes(motion, tuple(pairs), np.array(joined, bool), found, is_closed, within, mechanism.unit, step)
+
+
+def _advice(within: float, unit: str) -> str:
+    """Say what a search would take less time with."""
+    less = "fewer poses take as much less, and pairs can be left out, ignore=[[part, part]]"
+    if not within:
+        return less
+    given = f"{within:.3g} {unit}".rstrip()
+    return f"{less}; within=0 finds clashes only, and a length less than {given} measures fewer clearances"
 
 
 def _compared(mechanism: Mechanism, setting: FaceSetting, ignore: Sequence[Sequence[str]]) -> np.ndarray:
@@ -110,9 +126,13 @@ def _compared(mechanism: Mechanism, setting: FaceSetting, ignore: Sequence[Seque
 
 
 def _misfits(mechanism: Mechanism) -> dict[frozenset[str], dict[tuple[tuple[str, str], tuple[str, str]], float]]:
-    """Collect, for each two parts in contact, the faces that touch, (part, face) each, and their largest misfit."""
+    """Collect, for each two parts in contact, the faces that touch, (part, face) each, and their largest misfit.
+
+    Of joints by hand these are the contacts that the joints keep: what a joint holds together touches by design.
+    """
     found: dict[frozenset[str], dict[tuple[tuple[str, str], tuple[str, str]], float]] = {}
-    for contact in all_contacts(mechanism):
+    kept = () if mechanism.contacts else kept_contacts(mechanism).values()
+    for contact in (*all_contacts(mechanism), *chain.from_iterable(kept)):
         one, other = zip(contact.parts, contact.faces, strict=True)
         of_pair = found.setdefault(frozenset(contact.parts), {})
         of_pair[one, other] = max(of_pair.get((one, other), 0.0), contact.misfit)

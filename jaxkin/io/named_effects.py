@@ -155,10 +155,11 @@ def check_effects(names: Iterable[str]) -> None:
             raise ValueError(f"there is no effect {name!r}{closest(name, EFFECTS)}; there are {', '.join(EFFECTS)}")
 
 
-def compute(motion: Motion, asked: Settings) -> dict[str, Result]:
+def compute(motion: Motion, asked: Settings, progress: Callable[[int, int], None] | None = None) -> dict[str, Result]:
     """Compute the effects that are asked for, and no others; returns results by the names of their files.
 
-    Raises ValueError, with the name of the effect, for settings that it does not have and for what it lacks.
+    `progress(done, total)` is called as an effect that takes long goes on. Raises ValueError, with the name of the
+    effect, for settings that it does not have and for what it lacks.
     """
     check_effects(asked)
     results: dict[str, Result] = {}
@@ -166,14 +167,15 @@ def compute(motion: Motion, asked: Settings) -> dict[str, Result]:
         effect = EFFECTS[name]
         takes = signature(effect.compute).parameters
         free = any(each.kind is each.VAR_KEYWORD for each in takes.values())
-        has = [key for key, each in takes.items() if each.kind is each.KEYWORD_ONLY]
+        has = [key for key, each in takes.items() if each.kind is each.KEYWORD_ONLY and key != "progress"]
         for key in settings:
             if not free and key not in has:
                 knows = f"it has {', '.join(has)}" if has else "it has none"
                 raise ValueError(f"effect {name!r}: there is no setting {key!r}; {knows}")
         if lack := effect.lack(motion, settings):
             raise ValueError(f"{name} needs {lack}")
-        found = effect.compute(motion, **settings)
+        told = {"progress": progress} if progress and "progress" in takes else {}
+        found = effect.compute(motion, **settings, **told)
         results |= found if isinstance(found, Mapping) else {name: found}
     return results
 

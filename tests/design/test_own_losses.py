@@ -6,10 +6,11 @@ import pytest
 
 import jaxkin as jk
 from jaxkin import design
+from jaxkin._progress import ProgressBar
 from jaxkin.design.augmented_lagrangian import Penalty
 from jaxkin.design.bounds import Entry
 from jaxkin.design.own_functions import takes_extras
-from jaxkin.design.search import ProgressBar, search
+from jaxkin.design.search import search
 from jaxkin.design.solvers import CHUNK, Solver
 from jaxkin.design.variables import Variables, variables
 from reference.mechanisms import planar_fourbar
@@ -37,7 +38,7 @@ def test_a_search_goes_on_below_zero(start):
     time."""
     penalty = Penalty.plain(1.0, 1, 0)
     found, reason, history = search(
-        falling(0.05, start - 5.0), np.array([start]), penalty, np.ones(1, bool), LBFGS, ProgressBar(300, False)
+        falling(0.05, start - 5.0), np.array([start]), penalty, np.ones(1, bool), LBFGS, ProgressBar(300, False, "")
     )
     assert found[0] == start - 5.0
     assert reason.startswith("converged after 110 iterations") and len(np.concatenate(history)) == 110
@@ -47,7 +48,7 @@ def test_a_start_that_falls_fast_below_zero_is_not_hopeless():
     """The second start is behind the first one, and passes it: by its pace after 40 iterations more."""
     penalty, starts = Penalty.plain(1.0, 2, 0), np.array([-5.0, -1.0])
     found, _, _ = search(
-        falling(np.array([1e-4, 0.1]), -np.inf), starts, penalty, np.ones(2, bool), LBFGS, ProgressBar(300, False)
+        falling(np.array([1e-4, 0.1]), -np.inf), starts, penalty, np.ones(2, bool), LBFGS, ProgressBar(300, False, "")
     )
     assert found[1] == pytest.approx(-1.0 - 0.1 * 300)
 

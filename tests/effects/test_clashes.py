@@ -9,6 +9,7 @@ import trimesh
 from scipy.spatial import KDTree
 
 import jaxkin as jk
+from jaxkin.effects import clash_progress
 from jaxkin.effects.clash_shapes import clash_parts, displaced
 from jaxkin.effects.invariant_faces import invariant
 from jaxkin.examples import EXAMPLES, path
@@ -264,3 +265,36 @@ def test_a_mechanism_without_solids_says_what_to_do():
     for effect in (jk.clashes, jk.contact_validity):
         with pytest.raises(ValueError, match=r"those of a motion, mechanism\.sweep\(drive\), got Mechanism"):
             effect(motion.mechanism)
+
+
+@pytest.mark.long
+def test_joints_by_hand_hold_what_they_keep_on_each_other(tmp_path):
+    """A pin and its hole touch by design whether their joint was found or is written in a study: nothing is nearest."""
+    mechanism = jk.load(path("fourbar")).mechanism(fixed=["ground"])
+    jk.write_study(mechanism, tmp_path / "study.toml", geometry=str(path("fourbar")))
+    by_hand = jk.load_study(tmp_path / "study.toml").mechanism
+    assert not by_hand.contacts
+    (drive,) = mechanism.mobility().drivable[:1]
+    angles = np.linspace(0, 6, 5)
+    found, of_study = (jk.clashes(each.sweep({drive: angles}), within=3.0) for each in (mechanism, by_hand))
+    assert of_study.pairs == found.pairs and found.joined.sum() == 4
+    np.testing.assert_array_equal(of_study.joined, found.joined)
+    # joints of the study have ten digits
+    np.testing.assert_allclose(of_study.clearances, found.clearances, atol=1e-6)
+
+
+def test_a_search_tells_how_far_it_is_and_what_would_take_less(tmp_path, monkeypatch):
+    parts = {"base": box([-50, -4, 0], [50, 4, 10]), "bar": box([-4, -50, 11], [4, 50, 21])}
+    lift = jk.prismatic("lift", "base", "bar", axis=(0, 0, 1))
+    mechanism = by_hand(tmp_path, parts, [lift])
+    motion = mechanism.sweep({"lift": np.linspace(0, 1, 7)})
+    told = []
+    plain = jk.clashes(motion, progress=lambda *done: told.append(done))
+    assert told == [(7, 7)]
+    monkeypatch.setattr(clash_progress, "_LONG", -1.0)
+    with pytest.warns(UserWarning, match="fewer poses take as much less, .* within=0 finds clashes only") as warned:
+        again = jk.clashes(motion, progress=False)
+    assert warned[0].filename == __file__
+    np.testing.assert_array_equal(again.clearances, plain.clearances)
+    with pytest.warns(UserWarning, match=r"7 placements .* ignore=\[\[part, part\]\]$"):
+        jk.clashes(mechanism.sweep({"lift": np.linspace(-3, -2, 7)}), within=0)

@@ -48,7 +48,7 @@ def test_rays_tell_what_solid_angles_tell(mesh):
 
 
 def test_what_rays_through_edges_do_not_tell_is_left_open():
-    """Points in the planes of the faces of a box and below its edges may be inside; beside and above it they are not."""
+    """Points on the faces of a box and below its edges may be inside; those beside and above it are not."""
     tree = tree_of(trimesh.creation.box([2, 2, 2]).triangles)
     on_edges = np.array([[1, 0, 0], [1, 1, 0], [0, 0, 1], [0, 0, -1], [1, 1, 1], [0.5, 0.5, 0]], float)
     assert may_be_inside(tree, on_edges).all()
