@@ -11,7 +11,8 @@
 | | `region_union`, `tessellation_test`, `merge` |
 | fits of surfaces to points | `fit`, `refine` (its steps), `fit_together`, `fit_uncertainty` |
 | distances and crossings of solids | `triangle_tree`, `solid_pairs` (many together), `tree_distances`, |
-| | `tree_crossings`, `node_boxes`, `pose_intervals`, `triangle_distance`, `sample_points`, `enclosed`, `congruent` |
+| | `tree_crossings`, `node_boxes`, `pose_intervals`, `triangle_distance`, `hull_distance`, `sample_points`, |
+| | `enclosed`, `congruent` |
 | the same in JAX, differentiable | `closest_points`, of `mesh_elements` |
 | swept volumes | `signed_distance`, `isosurface` |
 | gears | `teeth`, `tooth_rows`, `outline` |

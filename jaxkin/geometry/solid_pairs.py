@@ -15,6 +15,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from jaxkin.geometry.displaced import Displaced
+from jaxkin.geometry.hull_distance import nearest_of_hulls
 from jaxkin.geometry.part import outermost
 from jaxkin.geometry.pose_intervals import PoseIntervals, pose_intervals
 from jaxkin.geometry.triangle_distance import Points
@@ -35,6 +36,8 @@ class Forest(NamedTuple):
     """The first triangle of each solid."""
     corners: tuple[Points, ...]
     """Of each solid the corners of its convex hull."""
+    trees: tuple[TriangleTree, ...]
+    """Each solid by itself."""
 
 
 def forest(trees: Sequence[TriangleTree]) -> Forest:
@@ -54,7 +57,8 @@ def forest(trees: Sequence[TriangleTree]) -> Forest:
         np.concatenate([each.own_middles for each in trees], axis=-1),
         np.concatenate([each.own_halves for each in trees], axis=-1),
     )
-    return Forest(joined, roots, first, tuple(outermost(each.triangles.reshape(-1, 3)) for each in trees))
+    corners = tuple(outermost(each.triangles.reshape(-1, 3)) for each in trees)
+    return Forest(joined, roots, first, corners, tuple(trees))
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,20 +122,48 @@ class SolidPairs:
         pairs, begin = np.unique(self.pair[places], return_index=True)
         return SolidPairs(self.solids, self.numbers[pairs], self.displaced.at(places), begin)
 
+    def nearest_of_hulls(self) -> Float[np.ndarray, "places 2 3"]:
+        """Find the nearest points of the convex hulls of both solids at each place, in the axes of each solid."""
+        rotation, shift = self.displaced
+        numbers, corners = self.numbers[self.pair], self.solids.corners
+
+        def support(places: np.ndarray, direction: np.ndarray) -> np.ndarray:
+            back = np.einsum("pij,pi->pj", rotation[places], direction)
+            one = _least(corners, numbers[places, 0], -direction)[1]
+            other = _least(corners, numbers[places, 1], back)[1]
+            return np.stack([one, self.displaced.of(places, other)], axis=1)
+
+        every = np.arange(len(shift))
+        found = nearest_of_hulls(support(every, np.tile(np.eye(3)[0], (len(shift), 1))), support)
+        found[:, 1] = np.einsum("pij,pi->pj", rotation, found[:, 1] - shift)
+        return found
+
     def ahead(self, direction: Float[np.ndarray, "3 places"]) -> Float[np.ndarray, " places"]:
         """Measure how far all of the second solid is ahead of all of the first, along a direction at each place in the
         axes of the first: less than 0 where they overlap along it. Their distance is no less."""
-        turned = np.einsum("pij,ip->jp", self.displaced.rotation, direction)
+        turned = np.einsum("pij,ip->pj", self.displaced.rotation, direction)
         found = np.einsum("pi,ip->p", self.displaced.shift, direction)
-        found += _least(self.solids.corners, self.numbers[self.pair, 1], turned)
-        return found + _least(self.solids.corners, self.numbers[self.pair, 0], -direction)
+        found += _least(self.solids.corners, self.numbers[self.pair, 1], turned)[0]
+        return found + _least(self.solids.corners, self.numbers[self.pair, 0], -direction.T)[0]
+
+    def nearest_triangles(self, points: Float[np.ndarray, "places 2 3"]) -> Int[np.ndarray, "places 2"]:
+        """Find the triangle of each solid that is nearest to a point in its axes, at each place."""
+        found, numbers = np.zeros((len(points), 2), int), self.numbers[self.pair]
+        for side in (0, 1):
+            for number in np.unique(numbers[:, side]):
+                (own,) = np.nonzero(numbers[:, side] == number)
+                nearest = self.solids.trees[number].signed_distances(points[own, side])[1]
+                found[own, side] = nearest + self.solids.first[number]
+        return found
 
 
-def _least(corners: Sequence[Points], solid: np.ndarray, direction: np.ndarray) -> np.ndarray:
-    """Find the least coordinate along directions, (3, _), of the corners of a solid each."""
-    found = np.zeros(len(solid))
+def _least(corners: Sequence[Points], solid: np.ndarray, direction: Points) -> tuple[np.ndarray, Points]:
+    """Find which corner of a solid is least along each direction, and how far along it that is."""
+    found, least = np.zeros((len(solid), 3)), np.zeros(len(solid))
     for number in np.unique(solid):
         (own,) = np.nonzero(solid == number)
         for some in np.array_split(own, len(own) * len(corners[number]) // _AT_ONCE + 1):
-            found[some] = (corners[number] @ direction[:, some]).min(axis=0)
-    return found
+            along = direction[some] @ corners[number].T
+            index = np.argmin(along, axis=1)
+            found[some], least[some] = corners[number][index], along[np.arange(len(some)), index]
+    return least, found

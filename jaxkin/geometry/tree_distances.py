@@ -39,12 +39,13 @@ def distances(pairs: SolidPairs, within: float) -> Float[np.ndarray, " places"]:
     places = np.arange(len(pairs.pair))
     begin = pairs.begin[pairs.pair]
     before = places - (places - begin) % _STRIDE
+    search.compare_hulls()
     sampled = np.unique(before)
-    search.follow(pairs.alone(sampled), _BEAM)
+    search.follow(pairs.alone(sampled[search.limit[sampled] > 0]), _BEAM)
     nearest = search.nearest.copy()
     last = np.append(pairs.begin[1:], len(places))[pairs.pair] - 1
     for of in (before, np.where(before + _STRIDE > last, before, before + _STRIDE)):
-        (known,) = np.nonzero(nearest[of, 0] >= 0)
+        (known,) = np.nonzero((nearest[of, 0] >= 0) & (search.limit > 0))
         search.measure(known, *nearest[of[known]].T)
     search.aim()
     search.follow(pairs.alone(np.flatnonzero(search.limit)), _BEAM)
@@ -68,6 +69,21 @@ class _Search:
         self.direction = np.zeros((3, count))
         """A direction from solid 1 to solid 2, in the axes of solid 1, along which they are apart; 0 where none is
         known."""
+
+    def compare_hulls(self) -> None:
+        """Leave out what is farther apart than its convex hulls are, and measure the triangles at the nearest points of
+        the hulls: where these are points of both solids, nothing is nearer.
+        """
+        points = self.pairs.nearest_of_hulls()
+        gap = self.pairs.displaced.of(np.arange(len(points)), points[:, 1]) - points[:, 0]
+        length = np.linalg.norm(gap, axis=1)
+        self.direction = (gap / np.where(length > 0, length, 1.0)[:, None]).T
+        ahead = self.pairs.ahead(self.direction)
+        self.limit[ahead >= self.limit] = 0.0
+        (near,) = np.nonzero((self.limit > 0) & (length > 0))
+        if len(near):
+            self.measure(near, *self.pairs.at(near).nearest_triangles(points[near]).T)
+        self.limit[ahead >= self.limit * (1 - _NEARER)] = 0.0
 
     def aim(self) -> None:
         """Take the directions between the nearest triangles so far.

@@ -8,6 +8,7 @@ from jaxkin.geometry import tree_distances
 from jaxkin.geometry.displaced import Displaced
 from jaxkin.geometry.solid_pairs import SolidPairs
 from jaxkin.geometry.tree_distances import distances
+from jaxkin.geometry.triangle_distance import triangle_distances
 from jaxkin.geometry.triangle_tree import triangle_tree
 
 SECTIONS, STACKS, GAP = 12, 6, 0.01
@@ -49,3 +50,27 @@ def test_a_rod_in_a_tube_is_as_near_all_over(solids, monkeypatch):
     few, bounded = slid(solids, 200, monkeypatch)
     np.testing.assert_allclose(few, expected, rtol=1e-8)
     assert bounded <= 200 < most
+
+
+def test_distances_are_those_of_all_triangles():
+    """A bracket with two legs and a bar, apart, with overlapping hulls, and across each other, at poses far apart."""
+    legs = [trimesh.creation.box([6, 1, 1]), trimesh.creation.box([1, 1, 4])]
+    legs[1].apply_translation([2.5, 0, 2.5])
+    bracket = trimesh.util.concatenate(legs)
+    one, other = (
+        triangle_tree(np.array(mesh.triangles), np.zeros(len(mesh.triangles), int))
+        for mesh in (bracket, trimesh.creation.cylinder(0.4, 2.0, sections=12))
+    )
+    random = np.random.default_rng(0)
+    turns = np.stack([trimesh.transformations.random_rotation_matrix(random.random(3))[:3, :3] for _ in range(60)])
+    displaced = Displaced(turns, random.uniform([-4, -2, 0.5], [4, 2, 6], (60, 3)))
+    rows = np.repeat(np.arange(len(one.triangles)), len(other.triangles))
+    expected = []
+    for pose in range(60):
+        moved = displaced.of(np.full(len(other.triangles), pose), other.triangles)
+        expected.append(triangle_distances(one.triangles[rows], np.tile(moved, (len(one.triangles), 1, 1))).min())
+    expected = np.array(expected)
+    assert np.sum(expected == 0) > 5 and np.sum((expected > 0) & (expected < 1)) > 20
+    # pairs nearer by less than 1e-9 of the distance are not looked for
+    found = distances(SolidPairs.one(one, other, displaced), 2.0)
+    np.testing.assert_allclose(found, np.where(expected <= 2.0, expected, np.inf), rtol=2e-9)
