@@ -17,6 +17,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from jaxkin._arguments import by_name, check_known, check_mechanism, several, whole_number
+from jaxkin._progress import ProgressBar
 from jaxkin.design.augmented_lagrangian import MET, Penalty, Verdict
 from jaxkin.design.constraints import Constraint
 from jaxkin.design.lbfgs import bounded

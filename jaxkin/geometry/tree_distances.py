@@ -31,7 +31,8 @@ faces are equally near."""
 def distances(pairs: SolidPairs, within: float) -> Float[np.ndarray, " places"]:
     """Measure the distance of the surfaces of two solids, 0 where they cross; infinite where it exceeds `within`.
 
-    At some of the displacements few items, those whose boxes are nearest, lead to triangles that are nearly the nearest
+    Where the nearest points of the convex hulls are points of the solids, the distance is that of the hulls. Else, at
+    some of the displacements, few items, those whose boxes are nearest, lead to triangles that are nearly the nearest
     ones. They bound the distance there and at the displacements between; then all are searched that may be nearer,
     along the direction in which those triangles are from each other, too.
     """

@@ -7,6 +7,7 @@ axis and the pairs as last one: every operation is then one of long rows.
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from jaxtyping import Float
@@ -82,7 +83,7 @@ def edge_places(first: Triangles, second: Triangles) -> Float[np.ndarray, "_ 3"]
     return _in_batches(_edge_places, first, second)
 
 
-def _in_batches(function: Callable, *arrays: np.ndarray):
+def _in_batches(function: Callable, *arrays: np.ndarray) -> Any:
     """Evaluate a function of arrays with the pairs last, piece by piece; its results have the pairs first."""
     found = []
     for start in range(0, max(1, len(arrays[0])), _AT_ONCE):
