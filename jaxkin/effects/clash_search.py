@@ -25,7 +25,7 @@ _AT_FIRST = 1 << 9
 
 
 def clearances(
-    cases: Sequence[ClashCase], within: float, still: float, told: Callable[[int, int], None]
+    cases: Sequence[ClashCase], within: float, still: float, told: Callable[[int, int], None] | None = None
 ) -> list[Float[np.ndarray, " poses"]]:
     """Measure the clearance of each case at each of its displacements; infinite beyond `within`.
 
@@ -43,7 +43,8 @@ def clearances(
     for some in _pieces(cases):
         found += _Piece(some, solids, at, still).clearances(within)
         done += sum(len(case.moved.shift) for case in some)
-        told(done, total)
+        if told:
+            told(done, total)
     return found
 
 
