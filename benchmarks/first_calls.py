@@ -30,9 +30,12 @@ AT = (60.0, 40.0, 0.0)
 
 def main(*names: str) -> None:
     programs: list[float] = []
-    monitoring.register_event_duration_secs_listener(
-        lambda event, seconds, **_: programs.append(seconds) if event.endswith("backend_compile_duration") else None
-    )
+
+    def listen(event: str, duration_secs: float, **_: str | int) -> None:
+        if event.endswith("backend_compile_duration"):
+            programs.append(duration_secs)
+
+    monitoring.register_event_duration_secs_listener(listen)
     print(f"{'':<24}{'first [s]':>10}{'programs':>10}{'again [ms]':>12}")
     for name, call in calls().items():
         if names and name not in names:
@@ -76,7 +79,9 @@ def calls() -> dict[str, Callable[[], Any]]:
             float(mechanism.lengths[lengths[0]])
         ),
         "tolerances": lambda: (
-            jk.tolerances(mechanism, dict.fromkeys(lengths, 0.01), measure, drive={"A": TURN[::12]}, samples=1000).value
+            jk.tolerances(
+                mechanism, dict.fromkeys(lengths, 0.01), measure, drive={"A": TURN[::12]}, samples=1000
+            ).nominal
         ),
         "optimize": lambda: (
             jk.optimize(
@@ -94,7 +99,7 @@ def calls() -> dict[str, Callable[[], Any]]:
                 {"A": TURN[:20]},
                 {jk.point("coupler", AT): motion.points("coupler", AT)[:20]},
                 lengths=lengths[:2],
-            ).sigma
+            ).deviation
         ),
     }
 
