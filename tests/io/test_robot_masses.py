@@ -179,8 +179,10 @@ def test_sdf(tmp_path):
     assert float(masses.mass[number]) == 2.0
     np.testing.assert_allclose(masses.centre[number], (1, 2, 3) + link.apply((0.1, 0, 0.2)), atol=1e-14)
     np.testing.assert_allclose(masses.inertia[number], turn @ inertia @ turn.T, atol=1e-14)
-    # a density of all parts gives way to the file, one of this part does not
-    assert float(jk.masses(mechanism, "steel").mass[number]) == 2.0
+    # a density of all parts gives way to the file, and where no part takes it that is said; one of this part does not
+    for density in ("steel", {"*": "steel"}):
+        with pytest.warns(UserWarning, match=r"the density is that of no part: .*'arm'.*\{'arm': 'steel'\}"):
+            assert float(jk.masses(mechanism, density).mass[number]) == 2.0
     assert float(jk.masses(mechanism, {"arm": "steel"}).mass[number]) == pytest.approx(6 * 7850, rel=1e-12)
     assert float(jk.masses(mechanism, given={"arm": jk.Mass(7.0, (0, 0, 0))}).mass[number]) == 7.0
 

@@ -1,9 +1,9 @@
 """Forces without an integrator: drive forces, joint reactions and equilibria of a motion that is prescribed.
 
-`masses` finds what parts weigh, `given` says what else acts on them, and `acting` checks both. `changes` differentiates
-the motion by its inputs and by time, loop group by loop group; `joint_screws` and `places` place joints and parts and
-compute their twists (`screws`), which are `moving_parts` together; `inertia` and `wrenches` compute what acts on each
-part. All of it is computed by `pose_groups`.
+`masses` finds what parts weigh, by their `densities` where no file says it, `given` says what else acts on them, and
+`acting` checks both. `changes` differentiates the motion by its inputs and by time, loop group by loop group;
+`joint_screws` and `places` place joints and parts and compute their twists (`screws`), which are `moving_parts`
+together; `inertia` and `wrenches` compute what acts on each part. All of it is computed by `pose_groups`.
 
 `drive` pairs wrenches with the derivatives by each input (virtual work; of weights at rest it differentiates their
 `potential`). `reactions` solves the `balance` of all parts for the wrenches of the joints, by the `joint_balance` of

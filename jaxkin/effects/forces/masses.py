@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -13,8 +14,9 @@ from jaxtyping import Array, Float
 
 from jaxkin._arguments import by_name, check_mechanism, check_one, one_number
 from jaxkin._guesses import Result
-from jaxkin._names import closest, match_parts, nearest
+from jaxkin._names import listed, nearest
 from jaxkin._traced import traced
+from jaxkin.effects.forces.densities import densities_of
 from jaxkin.geometry.inertial import exceeds_sum, of_density_one
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.units import METRES
@@ -24,24 +26,6 @@ from jaxkin.mechanism.placed_at import check_closed_pose, motion_of
 from jaxkin.mechanism.pose import Pose
 
 Number = float | int | np.ndarray | Array
-
-DENSITIES = {
-    "steel": 7850.0,
-    "stainless steel": 7900.0,
-    "cast iron": 7200.0,
-    "aluminium": 2700.0,
-    "titanium": 4500.0,
-    "brass": 8500.0,
-    "bronze": 8800.0,
-    "copper": 8960.0,
-    "magnesium": 1800.0,
-    "nylon": 1140.0,
-    "pom": 1410.0,
-    "abs": 1050.0,
-    "pla": 1240.0,
-    "wood": 600.0,
-}
-"""Material -> usual density, kg/m^3, as handbooks round it: an alloy may be a few percent off."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,16 +114,16 @@ def masses(
 ) -> Masses:
     """Find mass, centre and inertia of each part of a mechanism: as given, as its file says, or from its solids.
 
-    `density` is in kg/m^3, or the name of a material in `jaxkin.effects.forces.masses.DENSITIES`; a dictionary has one
-    for each part, whose names may have "*", where a full name goes before "*". `given` has for a part its `jk.Mass`, or
-    only its kilograms: it needs no density, and on mechanisms by hand no solid. Files of robots and exports of CAD
-    systems say what their parts weigh: that goes before a density for all parts ("*" too), and not before one that
-    names the part. The density of a material that a STEP file says is taken where `density` has none. Fixed parts need
-    no mass.
+    `density` is in kg/m^3, or the name of a material in `jaxkin.effects.forces.densities.DENSITIES`; a dictionary has
+    one for each part, whose names may have "*", where a full name goes before "*". `given` has for a part its
+    `jk.Mass`, or only its kilograms: it needs no density, and on mechanisms by hand no solid. Files of robots and
+    exports of CAD systems say what their parts weigh: that goes before a density for all parts ("*" too), and not
+    before one that names the part. The density of a material that a STEP file says is taken where `density` has none.
+    Fixed parts need no mass.
 
-    Works inside `jit` and `grad` with respect to densities and given masses. Raises ValueError for parts of which no
-    mass can be found, with what to write; for solids that are open, inertias that no body has, and unknown parts and
-    materials.
+    Works inside `jit` and `grad` with respect to densities and given masses. Warns of a density that no part takes,
+    since files say what all of them weigh. Raises ValueError for parts of which no mass can be found, with what to
+    write; for solids that are open, inertias that no body has, and unknown parts and materials.
     """
     check_mechanism(mechanism, "masses")
     known = dict(by_name(given or {}, "given masses", "{'rod': jk.Mass(0.3, centre=(10, 0, 0))}"))
@@ -148,8 +132,8 @@ def masses(
             raise ValueError(f"there is no part {name!r} to give a mass{nearest(str(name), mechanism.parts)}")
     parts = {part.name: part for part in mechanism.solids}
     solids = {name: part for name, part in parts.items() if part.is_solid}
-    densities, named = _densities(density, tuple(parts.values()))
-    rows, missing = [], []
+    densities, named = densities_of(density, tuple(parts.values()))
+    rows, missing, passed_over, taken = [], [], [], False
     for name in mechanism.parts:
         if name in known:
             rows.append(_given(name, known[name], solids.get(name), METRES[mechanism.unit]))
@@ -157,12 +141,21 @@ def masses(
             rows.append((0.0, np.zeros(3), np.zeros((3, 3))))
         elif name in parts and name not in named and (own := parts[name].inertial) is not None:
             rows.append((own.mass, own.centre, own.inertia))
+            passed_over += [name] if name in densities else []
         elif name in solids and (own := densities.get(name, solids[name].density)) is not None:
             rows.append(_of_solid(solids[name], own, METRES[mechanism.unit]))
+            taken |= name in densities
         else:
             missing.append(name)
     if missing:
         raise ValueError(_what_is_missing(missing, solids, density))
+    if passed_over and not taken:
+        warnings.warn(
+            f"the density is that of no part: the file says what {listed([*map(repr, passed_over)])} weigh, and goes "
+            "before a density for all parts; one that names a part goes before the file, as in "
+            f"{{{passed_over[0]!r}: 'steel'}}",
+            stacklevel=2,
+        )
     # known numbers are put together on the host, where nothing is compiled for it
     xp = jnp if traced(rows) else np
     mass, centre, inertia = (
@@ -183,41 +176,6 @@ def _what_is_missing(missing: Sequence[str], solids: Mapping[str, Part], density
         f"no mass of {names}: a part without a solid needs given={{{first!r}: jk.Mass(0.3, centre=(x, y, z))}}, or "
         f"given={{{first!r}: 0}} for none"
     )
-
-
-def _densities(density: Any, solids: Sequence[Part]) -> tuple[dict[str, Any], set[str]]:
-    """Look up the density of each part that has one, kg/m^3, and the parts that it names by more than "*"."""
-    if density is None:
-        return {}, set()
-    if not isinstance(density, Mapping):
-        return dict.fromkeys((part.name for part in solids), _density(density)), set()
-    found: dict[str, Any] = {}
-    named: set[str] = set()
-    # a pattern with "*" gives way to names, and "*" alone to all others
-    for key in sorted(density, key=lambda key: ("*" not in str(key), len(str(key)))):
-        for name in match_parts(key, solids, "density"):
-            found[name] = _density(density[key])
-            named |= {name} if key != "*" else set()
-    return found, named
-
-
-def _density(given: Any) -> Any:
-    """Return a density in kg/m^3, given as a number or as the name of a material.
-
-    Raises ValueError for unknown names, and for what is negative, infinite or no number; traced numbers are not looked
-    at.
-    """
-    if isinstance(given, str):
-        if given.lower() not in DENSITIES:
-            known = ", ".join(DENSITIES)
-            raise ValueError(f"there is no material {given!r} among {known}{closest(given.lower(), DENSITIES)}")
-        return DENSITIES[given.lower()]
-    if traced(given):
-        return given
-    number = np.asarray(given)
-    if number.shape != () or number.dtype.kind not in "iuf" or not (np.isfinite(number) and number >= 0):
-        raise ValueError(f"a density must be one number, kg/m^3, or the name of a material, got {given!r}")
-    return float(number)
 
 
 def _of_solid(part: Part, density: Any, metre: float) -> tuple[Any, Any, Any]:
