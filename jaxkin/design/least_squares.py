@@ -35,6 +35,7 @@ class _State(NamedTuple):
     residuals: Float[np.ndarray, "starts rows"]
     jacobian: Float[np.ndarray, "starts rows variables"]
     damping: Float[np.ndarray, " starts"]
+    """What is added to the diagonal of J^T J; in float64 always, since refused steps raise it beyond all float32."""
     growth: Float[np.ndarray, " starts"]
     """What the damping is multiplied by if the next step is refused."""
 
@@ -63,7 +64,7 @@ def least_squares(problem: Problem, together: int = TOGETHER) -> Solver:
     def begin(vectors, penalty):
         units = units_of(vectors)
         residuals, jacobian = evaluated(units, penalty)
-        damping = FIRST_DAMPING * _largest(jacobian) + 1e-300
+        damping = FIRST_DAMPING * _largest(jacobian).astype(np.float64) + 1e-300
         return _State(units, residuals, jacobian, damping, np.full(len(units), 2.0))
 
     def advance(state, penalty, active):
@@ -140,8 +141,9 @@ def _largest(jacobian: Float[np.ndarray, "starts rows variables"]) -> Float[np.n
 
 def _proposed(state: _State) -> tuple[Float[np.ndarray, "starts variables"], Float[np.ndarray, " starts"]]:
     """Compute where the next step leads, and the decrease of the loss that the linearised residuals foresee."""
-    square = np.einsum("sri,srj->sij", state.jacobian, state.jacobian)
-    slope = np.einsum("sri,sr->si", state.jacobian, state.residuals)
+    jacobian = state.jacobian.astype(np.float64)  # as the damping is: see `_State.damping`
+    square = np.einsum("sri,srj->sij", jacobian, jacobian)
+    slope = np.einsum("sri,sr->si", jacobian, state.residuals)
     at_lower, at_upper = state.units <= 0.0, state.units >= 1.0
     held = at_lower & (slope > 0) | at_upper & (slope < 0)
     step = _step(square, slope, state.damping, held)

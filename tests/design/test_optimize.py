@@ -4,6 +4,7 @@ import json
 import warnings
 from dataclasses import fields
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
@@ -257,3 +258,20 @@ def test_the_format_of_saved_results_changes_with_what_is_saved():
     """Whoever changes the fields raises `SAVED_FORMAT`, and writes both here."""
     assert result.SAVED_FORMAT == 3
     assert [field.name for field in fields(result.SweepVerdict)] == ["poses", "counts", "steepest"]
+
+
+@pytest.mark.long
+@pytest.mark.filterwarnings("ignore:jaxkin computes in float32")
+def test_a_search_in_float32_overflows_nowhere():
+    """At the minimum rounding refuses steps one after the other, each with a damping that grows faster: by the time the
+    search is given up it is no number of float32. Rounding of points leaves 1e-5 of the length."""
+    angles, coupler = np.linspace(0.0, 1.0, 9), ("coupler", "B", "C")
+    places = [("A", "ground", "crank", (0, 0, 0)), ("B", "crank", "coupler", (1, 0, 0))]
+    places += [("C", "coupler", "rocker", (3.2, 2.9, 0)), ("D", "ground", "rocker", (4, 0, 0))]
+    joints = [jk.revolute(name, one, two, point=at, axis=(0, 0, 1)) for name, one, two, at in places]
+    with jax.enable_x64(False):
+        start = jk.Mechanism.build(fixed=["ground"], joints=joints)
+        path = start.with_lengths({coupler: 3.8}).sweep({"A": angles}).points("coupler", (2.0, 1.0, 0.0))[:, :2]
+        objective = design.path("coupler", (2.0, 1.0, 0.0), path)
+        found = jk.optimize(objective, start, drive={"A": angles}, lengths={coupler: (3, 4.5)})
+    assert found.mechanism.lengths[coupler] == pytest.approx(3.8, rel=1e-5)
