@@ -46,18 +46,38 @@ def whole(target: Path) -> Iterator[Path]:
     """Yield a draft of a file, which takes the place of the file when it is written, and never if that fails.
 
     It lies in a folder beside the file, on the same disk, so that the move is a mere renaming. Raises FileNotFoundError
-    where the folder of the file is not there, and OSError where nothing can be written in it.
+    where the folder of the file is not there, and OSError where nothing can be written in it, or not this file.
     """
     check_folder(target)
     try:
         beside = TemporaryDirectory(prefix=".", dir=target.parent)
     except OSError as error:
-        why = (error.strerror or str(error)).lower()
-        raise OSError(f"cannot write {target}: {why}; name a folder that can be written in") from None
+        raise OSError(f"cannot write {target}: {_why(error)}; name a folder that can be written in") from None
     with beside as folder:
         draft = Path(folder) / target.name
         yield draft
-        os.replace(draft, target)
+        try:
+            os.replace(draft, target)
+        except OSError as error:
+            raise OSError(f"could not write {target}: {_why(error)}") from None
+
+
+def make_folder(folder: Path) -> None:
+    """Make a folder, with those that it lies in; OSError, with what to do, where it cannot be made."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except (FileExistsError, NotADirectoryError):
+        raise NotADirectoryError(
+            f"cannot save into {str(folder)!r}: it is, or lies in, a file; name a directory"
+        ) from None
+    except OSError as error:
+        why = f"it cannot be made, {_why(error)}"
+        raise OSError(f"cannot save into {str(folder)!r}: {why}; name a folder that can be written in") from None
+
+
+def _why(error: OSError) -> str:
+    """Say what the system says of an error, without the names of files."""
+    return (error.strerror or str(error)).lower()
 
 
 def save_figure(figure: Figure, path: Path) -> Path:

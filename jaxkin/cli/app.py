@@ -114,11 +114,14 @@ def inspect(
             report.print_near_misses(contacts, None, verbose)
             if png and study.assembly:
                 written.draw(study.assembly, contacts, None, png)
+                report.say(f"\nWritten: {png}.")
             if page and study.assembly:
                 written.write_refusal(study.assembly, contacts, page, refusal)
+                report.say(f"\nWritten: {page}. Open it in a browser.")
             raise
         if png and study.assembly:
             written.draw(study.assembly, contacts, study.mechanism, png)
+            report.say(f"\nWritten: {png}.")
         if page:
             written.write_page(study, tried, page)
             report.say(f"\nWritten: {page}. Open it in a browser.")
@@ -157,6 +160,8 @@ def loops(
         report.print_structure(study.mechanism)
         if study.ranges:
             report.say(f"\n{study.mechanism.plan(study.ranges)}")
+        if png:
+            report.say(f"\nWritten: {png}.")
 
 
 @app.command(epilog="Example:  jaxkin accuracy fourbar.step --fixed ground --drive ground-crank=0:360:361")
@@ -186,6 +191,8 @@ def accuracy(
         if png:
             work.plot(png)
         report.say(str(work))
+        if png:
+            report.say(f"\nWritten: {png}.")
 
 
 @app.command(

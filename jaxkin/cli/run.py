@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import typer
 
+from jaxkin._files import make_folder
 from jaxkin.cli.errors import about_input
 from jaxkin.cli.options import Options
 from jaxkin.cli.progress import CommandSteps, progress
@@ -110,7 +111,7 @@ def _streamed(study: Study, out: Path) -> _Written:
     from jaxkin.cli import report
     from jaxkin.io.long_motion import write_stream
 
-    out.mkdir(parents=True, exist_ok=True)
+    make_folder(out)
     stream = study.mechanism.stream(study.drive)
     with progress(1 + len(stream)) as step:
         step("writing motion.npz")

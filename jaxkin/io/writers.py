@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from jaxkin._arguments import several
-from jaxkin._files import whole
+from jaxkin._files import make_folder, whole
 from jaxkin._traced import traced
 from jaxkin.io.gltf import write_animation
 from jaxkin.io.tables import write_arrays, write_table
@@ -56,12 +56,7 @@ def save(
         if single:
             return (_write(motion, directory, writers[single[0]]),)
     chosen = _choose(only, writers)
-    try:
-        directory.mkdir(parents=True, exist_ok=True)
-    except (FileExistsError, NotADirectoryError):
-        raise NotADirectoryError(
-            f"cannot save into {str(directory)!r}: it is, or lies in, a file; name a directory"
-        ) from None
+    make_folder(directory)
     return tuple(_write(motion, directory / filename, writers[filename]) for filename in chosen)
 
 
@@ -73,9 +68,9 @@ def _choose(only: str | Collection[str] | None, writers: Mapping[str, Writer]) -
 
 
 def _write(motion: Motion, target: Path, writer: Writer) -> Path:
-    try:
-        with whole(target) as draft:
+    with whole(target) as draft:
+        try:
             writer(motion, draft)
-    except Exception as error:  # whatever fails in a writer, the user asked for a file
-        raise OSError(f"could not write {str(target)!r}: {error}") from error
+        except Exception as error:  # whatever fails in a writer, the user asked for a file
+            raise OSError(f"could not write {str(target)!r}: {error}") from error
     return target

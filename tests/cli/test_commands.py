@@ -175,6 +175,7 @@ def test_inspect_tells_everything_once(tmp_path):
 def test_inspect_draws_what_it_found(tmp_path):
     done = invoke("inspect", FOURBAR, "--fixed", "ground", "--png", tmp_path / "found.png")
     assert done.exit_code == 0, done.output
+    assert f"Written: {tmp_path / 'found.png'}." in done.output.replace("\n", "")
     assert (tmp_path / "found.png").read_bytes().startswith(b"\x89PNG")
 
 
@@ -197,6 +198,7 @@ def test_inspect_writes_the_page_of_what_is_refused_too(tmp_path):
     page = tmp_path / "report.html"
     done = invoke("inspect", tmp_path / "apart.step", "--fixed", "ground", "--exact-only", "--page", page)
     assert done.exit_code == 2 and "'rocker' touches no other part" in done.stderr
+    assert "report.html. Open it in a browser." in done.stdout
     assert "There is no mechanism yet. apart.step: 'rocker' touches no other part" in page.read_text("utf-8")
 
 

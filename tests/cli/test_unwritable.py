@@ -2,10 +2,12 @@
 
 import errno
 import os
+from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
 
+import jaxkin as jk
 from jaxkin import _files
 from jaxkin.cli.app import app
 
@@ -45,3 +47,21 @@ def test_a_folder_in_which_nothing_can_be_written_is_named_with_the_file(tmp_pat
     with pytest.raises(OSError, match=said) as error, _files.whole(tmp_path / "found.html"):
         pass
     assert ".draft" not in str(error.value)
+
+
+def test_a_folder_that_cannot_be_made_is_named_with_the_reason(tmp_path, monkeypatch):
+    def refused(path, **_):
+        raise OSError(errno.EROFS, os.strerror(errno.EROFS), str(path))
+
+    monkeypatch.setattr(Path, "mkdir", refused)
+    said = r"^cannot save into '.*out': it cannot be made, read-only file system; name a folder that can be written in$"
+    with pytest.raises(OSError, match=said):
+        _files.make_folder(tmp_path / "out")
+
+
+def test_a_file_in_a_folder_that_is_not_there_is_refused_once(tmp_path):
+    """In the words of the file, with nothing before them."""
+    joints = [jk.revolute("A", "ground", "arm", point=(0, 0, 0), axis=(0, 0, 1))]
+    motion = jk.Mechanism.build(fixed=["ground"], joints=joints).sweep({"A": [0.0, 0.1]})
+    with pytest.raises(FileNotFoundError, match=r"^cannot write .*m\.csv: there is no folder .*none; make it"):
+        motion.save(tmp_path / "none" / "m.csv")

@@ -182,7 +182,7 @@ def test_joints_and_targets_together():
         ({jk.point("d", TIP): np.zeros((2, 3))}, {}, "no part 'd' that moves"),
         ({jk.point("base", TIP): np.zeros((2, 3))}, {}, "no part 'base' that moves"),
         ({jk.pose("c"): np.zeros((2, 3))}, {}, r"shape \(poses, 4, 4\)"),
-        ({jk.point("c", TIP): np.full((2, 3), np.nan)}, {}, "NaN or infinity"),
+        ({jk.point("c", TIP): np.full((2, 3), np.nan)}, {}, r"the target c \(.*\) has NaN"),
         ({jk.point("c", TIP): np.zeros((2, 3)), "A": [0.0]}, {}, "same number of poses"),
         ({"A": [0.0]}, {"weights": {"B": 1.0}}, "'B' is no target"),
         ({"A": [0.0]}, {"weights": {"A": -1.0}}, "zero or more"),

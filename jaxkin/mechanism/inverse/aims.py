@@ -94,7 +94,7 @@ def _aim(mechanism: Mechanism, key: str | Target, values: Any, weight: Weight) -
 def _finite(key: str | Target, given: np.ndarray) -> np.ndarray:
     """Return the values of a target; ValueError where one of them is NaN or infinite."""
     if not np.isfinite(given).all():
-        raise ValueError(f"the target {key!r} has NaN or infinity; leave those poses out")
+        raise ValueError(f"the target {_named(key)} has NaN or infinity; leave those poses out")
     return given
 
 
@@ -110,5 +110,10 @@ def _weights(key: object, weight: Weight) -> tuple[float, float]:
         both = (np.nan,)
     if not all(0 <= each < np.inf for each in both):
         choices = "zero or more, or (place, orientation)" if has_both else "one number, zero or more"
-        raise ValueError(f"the weight of {key!r} must be {choices}, got {weight!r}")
+        raise ValueError(f"the weight of {_named(key)} must be {choices}, got {weight!r}")
     return both[0], both[-1]
+
+
+def _named(key: object) -> str:
+    """Name a target as messages do: one of a part as that of a sweep."""
+    return key.joint if isinstance(key, Target) else repr(key)
