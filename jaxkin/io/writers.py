@@ -33,6 +33,9 @@ WRITERS: dict[str, Writer] = {
 """By the name of the file, in the order in which they are written: tables before all else, since they are cheap and
 are there even if a picture fails."""
 
+OTHER_ENDS = (".svg", ".pdf", ".jpg", ".jpeg", ".gif", ".mp4", ".npy", ".json", ".txt", ".tsv", ".xlsx", ".mat", ".pkl")
+"""Ends of files that nothing here writes, and of which no folder has its name."""
+
 
 def save(
     motion: Motion,
@@ -44,9 +47,10 @@ def save(
 
     A path that ends as one of the files does, as in "rocker.csv", and that is no directory, is that one file.
 
-    Returns the paths written. Each file appears whole or not at all. Raises ValueError for an unknown file name and
-    for traced numbers, NotADirectoryError where the directory is a file, and OSError, naming the file, where one cannot
-    be written: those before it are there by then, those after it are not.
+    Returns the paths written. Each file appears whole or not at all. Raises ValueError for an unknown file name, for a
+    path that ends as a file of another kind does, as in "rocker.svg", and for traced numbers, NotADirectoryError where
+    the directory is a file, and OSError, naming the file, where one cannot be written: those before it are there by
+    then, those after it are not.
     """
     if traced(motion):
         raise ValueError("the numbers of the motion are traced by JAX: call save outside of jit, vmap and grad")
@@ -55,6 +59,12 @@ def save(
         single = [name for name in writers if directory.suffix and Path(name).suffix == directory.suffix.lower()]
         if single:
             return (_write(motion, directory, writers[single[0]]),)
+        if directory.suffix.lower() in OTHER_ENDS:
+            ends = ", ".join(dict.fromkeys(Path(name).suffix for name in writers))
+            raise ValueError(
+                f"a motion is saved as a file that ends in {ends}, or as all of them in a folder, as in save('out'); "
+                f"got {directory.name!r}"
+            )
     chosen = _choose(only, writers)
     make_folder(directory)
     return tuple(_write(motion, directory / filename, writers[filename]) for filename in chosen)

@@ -92,6 +92,18 @@ def test_a_path_that_ends_as_a_file_does_is_that_file(motion, tmp_path):
     assert inside.read_text() == path.read_text()
 
 
+@pytest.mark.parametrize("end", [".svg", ".JSON"])
+def test_a_path_that_ends_as_another_file_does_makes_no_folder(motion, tmp_path, end):
+    with pytest.raises(
+        ValueError, match=rf"a file that ends in \.npz, \.csv, .* or as all of them .*; got 'rocker{end}'"
+    ):
+        motion.save(tmp_path / f"rocker{end}")
+    assert not list(tmp_path.iterdir())
+    (tmp_path / f"v1{end}").mkdir()
+    (inside,) = motion.save(tmp_path / f"v1{end}", only="motion.csv")
+    assert inside.is_file()
+
+
 @pytest.mark.parametrize("inside", [".", "out"])
 def test_a_file_is_no_directory(motion, tmp_path, inside):
     (tmp_path / "taken").write_text("mine")
