@@ -109,7 +109,13 @@ def _axes(
     omega: Float[Array, "poses 3"],
     place: Float[Array, "poses 4 4"],
     velocity: Float[Array, "poses 4 4"],
-) -> tuple[Float[Array, "poses 3"], Float[Array, "poses 3"], Float[Array, "poses 3"], Float[Array, " poses"], ...]:
+) -> tuple[
+    Float[Array, "poses 3"],
+    Float[Array, "poses 3"],
+    Float[Array, "poses 3"],
+    Float[Array, " poses"],
+    Float[Array, " poses"],
+]:
     """Compute direction, point, moving point, pitch and angular speed of `ScrewAxes`.
 
     `omega` is the angular velocity of the part, `place` its transform and `velocity` the derivative of that; `rates`

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import AbstractContextManager
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -41,6 +42,9 @@ class InverseProblem:
     def __init__(self, mechanism: Mechanism, aims: Sequence[Aim]) -> None:
         linkage = mechanism.linkage
         self.linkage, self.aims, self.size = linkage, aims, float(extent(mechanism))
+        with _doubled():
+            self.numbers = jax.tree.map(jnp.asarray, linkage)
+            """The linkage on the device: what is put there anew in each call takes longer than the call."""
         self.places = [(k, c) for k, joint in enumerate(linkage.joints) for c in range(joint.freedoms)]
         self.names = tuple(name for joint in linkage.joints for name in joint.full_names)
         self.lengths = np.array([is_length(name.rpartition(".")[2]) for name in self.names], bool)
@@ -78,8 +82,8 @@ class InverseProblem:
         """
         from scipy.spatial.transform import Rotation
 
-        with jax.enable_x64(True):  # on the host numbers have double precision always, as those of numpy beside them
-            found = _evaluated(self.linkage, self.parts, tuple(self.units), jnp.asarray(x))
+        with _doubled():
+            found = _evaluated(self.numbers, self.parts, tuple(self.units), jnp.asarray(x))
         closure, jacobian, transforms, rates = (np.asarray(each) for each in found)
         errors, slopes = [], []
         for aim in self.aims:
@@ -107,6 +111,11 @@ class InverseProblem:
         aimed = np.concatenate([np.zeros((len(x), 0, x.shape[1])), *slopes], axis=1)
         merit = np.sum(targets**2, axis=1) + PENALTY * np.sum(closure**2, axis=1)
         return StepEquations(closure, jacobian, targets, aimed, x - self.rest), merit
+
+
+def _doubled() -> AbstractContextManager[None]:
+    """Compute in double precision, as numpy does beside: poses are led to targets on the host."""
+    return jax.enable_x64(True)
 
 
 def _reach(
