@@ -9,6 +9,8 @@ from drawings import balanced as balanced
 from drawings import bodywork as bodywork
 from drawings import braked as braked
 from drawings import clockwork as clockwork
+from drawings import cranked as cranked
+from drawings import dampened as dampened
 from drawings import deployed as deployed
 from drawings import desktop as desktop
 from drawings import devices as devices
@@ -61,8 +63,12 @@ from drawings import steered as steered
 from drawings import swivelling as swivelling
 from drawings import swung as swung
 from drawings import threaded as threaded
+from drawings import tilted as tilted
 from drawings import turning as turning
+from drawings import unfolded as unfolded
 from drawings import vehicles as vehicles
+from drawings import walked as walked
 from drawings import wheeled as wheeled
+from drawings import worked as worked
 from drawings import workshop as workshop
 from drawings import wound as wound
