@@ -118,11 +118,11 @@ def gearmotor_arm(random: np.random.Generator) -> Drawing:
         turns(d, (f"JGB37-520 {number}", f"Nabe {number}", place, Y))
         return holder
 
-    d.add("Ständer", cut(motor(1, first, -X, column), *(bore(p, Z, 2.7, 10) for p in spots)))
-    weld(d, "Grundplatte", "Ständer")
+    d.add("Staender", cut(motor(1, first, -X, column), *(bore(p, Z, 2.7, 10) for p in spots)))
+    weld(d, "Grundplatte", "Staender")
     for k, p in enumerate(spots):
-        fast(d, "Ständer", **{f"M5x14 {k}": capscrew(p, -Z, 2.5, 13)})
-    weld(d, "Ständer", "JGB37-520 1", "M3x8 10", "M3x8 11", "M3x8 12")
+        fast(d, "Staender", **{f"M5x14 {k}": capscrew(p, -Z, 2.5, 13)})
+    weld(d, "Staender", "JGB37-520 1", "M3x8 10", "M3x8 11", "M3x8 12")
 
     def arm(start, way, length: float) -> Shape:
         """A flat link from the hub at its start, y from 6 to 10."""
