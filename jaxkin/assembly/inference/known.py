@@ -129,7 +129,7 @@ class Known:
     def touches_across(self, part: str, axis: Vector, *others: str) -> bool:
         """Tell whether a part has a plane face across an axis in contact with one of others."""
         contacts = (each for other in others for each in self.between.get(frozenset((part, other)), ()))
-        return any(stands_across(each.surfaces[0], axis) for each in contacts)
+        return any(each.contact_state.is_flat and stands_across(each.surfaces[0], axis) for each in contacts)
 
     def touches_only_across(self, one: str, other: str, axis: Vector, pins: bool = True) -> bool:
         """Tell whether all that two parts have in contact are plane faces across an axis, `pins` in holes included."""

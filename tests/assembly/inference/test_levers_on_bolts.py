@@ -8,7 +8,7 @@ import re
 import pytest
 
 import jaxkin as jk
-from reference.round_parts import SEEDS, anywhere, assembly, block, kind_of, owners, part, pin, ring
+from reference.round_parts import SEEDS, across, anywhere, assembly, block, kind_of, owners, part, pin, ring
 
 PIVOT = pin(4.0, 0, 60, (100.0, 60.0))
 OTHER = part("other lever", ring(4.1, 9.0, 5, 15, (100.0, 60.0)), block((108, 57, 5), (140, 63, 15)))
@@ -84,3 +84,18 @@ def test_a_pedal_on_a_bolt_is_taken_as_clamped_and_told_with_the_line_that_makes
     hinged = drawn.mechanism(fixed=["base"], joints=[eval(line, {"jk": jk})])
     assert kind_of(hinged, "pedal", "base") == "revolute"
     assert hinged.mobility().useful == 3
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("flat", [False, True])
+def test_a_head_clamps_what_it_lies_flat_on_and_no_round_shank_that_it_touches_on_a_line(flat, seed):
+    """A crank pin with a head; the shank of the rod is as thick as its eye is long, and touches head and crank."""
+    crank = part("crank", ring(3.0, 10.0, -12, -5), block((9, -4, -12), (60, 4, -5)), ring(4.0, 9.0, -12, -5, (68, 0)))
+    base = part("base", pin(4.0, -40, 10, (68, 0)), block((40, -30, -60), (96, 30, -40)))
+    bolt = part("pin", pin(3.0, -12, 5), pin(6.0, 5, 8))
+    eye = ring(3.3, 8.0, -5, 5) if flat else ring(3.3, 8.0, -4.5, 4.5)
+    shank = block((-60, -4, -5), (-7, 4, 5)) if flat else across(pin(5.0, -60, -4.5))
+    rod = part("rod", eye, shank)
+    body = owners(anywhere(assembly(base, crank, bolt, rod), seed).mechanism(fixed=["base"]))
+    assert body["pin"] == body["crank"]
+    assert (body["rod"] == body["crank"]) is flat
