@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -156,3 +156,24 @@ def leaves_all_moving(
     left = seen(other, lambda _: True)
     gone_by = seen(mechanism, stays) - left
     return not gone_by or (but_slides and all(name == "z" and (pair, "phi") in left for pair, name in gone_by))
+
+
+def leaves_bodies_moving(mechanism: Mechanism, other: Mechanism) -> bool:
+    """Tell whether all bodies that move on what is fixed still do so in another mechanism, by whichever coordinates.
+
+    A body that lies on another one lets joints of third ones move that move by nothing else: the webs of a crank turn
+    on each other where one of their bearings may be pushed about.
+    """
+    owner = body_of_parts(other.bodies)
+    return _still(other, owner) <= _still(mechanism, owner)
+
+
+def _still(mechanism: Mechanism, owner: Mapping[str, str]) -> set[str]:
+    """Find the bodies that nothing but idle motions moves on what is fixed, through joints that stay as they are."""
+    moving = moving_coordinates(mechanism.linkage)
+    locked = [each for each in mechanism.all_joints if not {*each.full_names} & moving]
+    pairs = [{owner[part] for part in each.parts} for each in locked]
+    still = {owner[part] for part in mechanism.fixed}
+    while more := {body for pair in pairs if pair & still for body in pair - still}:
+        still |= more
+    return still

@@ -16,7 +16,7 @@ from jaxkin.assembly.inference.springs import DrawnSpring, springs
 from jaxkin.assembly.lids import under_lids
 from jaxkin.assembly.lifting_seats import lifting_seats
 from jaxkin.assembly.meant_to_turn import with_turning
-from jaxkin.assembly.resting import leaves_all_moving, lifted_off, resting
+from jaxkin.assembly.resting import leaves_all_moving, leaves_bodies_moving, lifted_off, resting
 from jaxkin.assembly.seats import is_on_one_plane, not_idle, seats_of, useful_freedoms
 from jaxkin.assembly.tight_fits import tight_fits
 from jaxkin.assembly.to_mechanism import MechanismOptions, detection_of
@@ -137,7 +137,8 @@ def _seated(trials: Trials, seats: list[Inference], trial: Trial, new: list[Infe
 
 
 def _hold_lying(trials: Trials, seats: list[Inference], trial: Trial) -> _Held:
-    """Hold bodies that only lie on others, where all else moves as before."""
+    """Hold bodies that only lie on others, where all else moves as before; then those on one plane, where all other
+    bodies still move."""
     lying = resting(trial.mechanism) if useful_freedoms(trial.mechanism) else []
     flat = [each for each in lying if is_on_one_plane(trial.mechanism, each)]
     all_together, one_by_one = _choices(lying)[:1], _choices(lying)[1:]
@@ -149,6 +150,12 @@ def _hold_lying(trials: Trials, seats: list[Inference], trial: Trial) -> _Held:
             seats, trial = [*seats, *held], other
         elif lifted_off(other.mechanism) and _moves_as_before(trials.lifted(trial), trials.lifted(other), held):
             return [*seats, *held], other._replace(lifts=True)
+    for held in _choices([each for each in flat if each not in seats]):
+        if held[0] in seats:
+            break  # all are held together
+        other = trials.make([*seats, *held])
+        if useful_freedoms(other.mechanism) and leaves_bodies_moving(trial.mechanism, other.mechanism):
+            seats, trial = [*seats, *held], other
     return seats, trial
 
 

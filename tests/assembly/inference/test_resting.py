@@ -79,3 +79,20 @@ def test_a_follower_on_the_dwell_of_its_cam_leaves_its_bracket_resting(on, seed)
     body = owners(mechanism)
     assert (body["bracket"] == body["base"]) is (on == "dwell")
     assert kind_of(mechanism, "lever", "bracket") in ("revolute", "cylindrical")
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_cover_that_lies_on_its_case_is_held_though_its_crank_could_turn_in_two_halves_without(seed):
+    """The webs of a built-up crank turn on each other where the bearing of one may be pushed about; else they turn as
+    one, as what carries them stays."""
+    case = part("case", ring(5.0, 30.0, 0, 10), block((26, -8, 10), (34, 8, 60)), block((-34, -8, 10), (-26, 8, 60)))
+    cover = part("cover", ring(5.0, 34.0, 60, 70))
+    rear = part("rear web", pin(5.0, -10, 16), ring(4.0, 9.0, 16, 24, (12, 0)), block((0, -4, 16), (4, 4, 24)))
+    front = part(
+        "front web", pin(5.0, 40, 90), pin(9.0, 40, 48), block((6, -4, 40), (12, 4, 48)), pin(4.0, 16, 48, (12, 0))
+    )
+    rod = part("rod", ring(4.1, 8.0, 28, 36, (12, 0)), block((20, -3, 28), (24, 3, 36)))
+    mechanism = anywhere(assembly(case, cover, rear, front, rod), seed).mechanism(fixed=["case"])
+    body = owners(mechanism)
+    assert body["cover"] == body["case"]
+    assert body["front web"] != body["case"] != body["rear web"]
