@@ -27,8 +27,9 @@ def holder_of(known: Known, stack: Stack, body: Mapping[str, str], slides: bool)
 
     A body that is round about the axis, as a roller or a planet is, turns on the stack, and so does one that is on it
     with sleeves only, where there is another one. Of a body that a pin fits exactly, and others with play, it is the
-    former: those turn on it. Of bodies that fit alike it is a fixed one. Where others slide on the stack, that body
-    reaches farther on both sides, or fits more tightly; None if none does.
+    former: those turn on it; where something may slide on the pin only if the body has a hole shorter than wide. Of
+    bodies that fit alike it is a fixed one. Where others slide on the stack, that body reaches farther on both sides,
+    or fits more tightly; None if none does.
     """
     along = stack.axis.axis
     reach: dict[str, list[tuple[float, float, str]]] = {}
@@ -69,7 +70,9 @@ def holder_of(known: Known, stack: Stack, body: Mapping[str, str], slides: bool)
         sorted(fits, key=lambda owner: owner not in grounded), lambda owner: -fits[owner], rounding
     )
     same = SAME_FIT * stack.axis.radius
-    if not slides and tightest in keepers and [owner for owner, fit in fits.items() if fit <= same] == [tightest]:
+    jams = ends[tightest][1] - ends[tightest][0] < 2 * stack.axis.radius  # nothing slides on a hole shorter than wide
+    exact = [owner for owner, fit in fits.items() if fit <= same]
+    if (jams or not slides) and tightest in keepers and exact == [tightest]:
         return ends[tightest][2], "which it fits exactly, and has play in others"
     inside = all(low + rounding < one and other < high - rounding for one, other, _ in others)
     if not slides or (not turns and inside):

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from jaxkin.assembly.inference.ball_joints import ball_joints
 from jaxkin.assembly.inference.ball_studs import held_studs
+from jaxkin.assembly.inference.bearing_blocks import bearing_blocks
 from jaxkin.assembly.inference.bearing_joints import bearing_bodies, bearing_joints
 from jaxkin.assembly.inference.bearings import outside_of
 from jaxkin.assembly.inference.carriages import carriages
@@ -172,7 +173,7 @@ def _take_hubs_and_find_fasteners(known: Known) -> set[str]:
     fastening -= sliding_rods(known, set_in) | (axles - hollow_pins(known, axles)) | driven | barrels(set_in)
     known.blocks = blocks_between_walls(known, fastening)
     fastening -= rollers(known, fastening) | rollers_in_channels(known, fastening)
-    fastening -= known.blocks | in_grooves(known, fastening)
+    fastening -= known.blocks | bearing_blocks(known, fastening) | in_grooves(known, fastening)
     fastening -= {each.screw.part for each in lead_nuts(known)}
     known.take([*squared_hubs(known, fastening), *pressed_on_shoulders(known, fastening)])
     known.take(seated_on_squares(known, fastening))

@@ -42,3 +42,42 @@ def test_a_screw_with_play_in_two_parts_belongs_to_the_fixed_one(fixed, seed):
     body = owners(mechanism)
     assert body["screw"] == body["nut"] == body[fixed]
     assert body["plate"] != body["link"]
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(("half", "host"), [(4, "beam"), (12, "stand")])
+def test_a_long_shaft_belongs_to_a_short_hole_that_it_fits_exactly(half, host, seed):
+    """The beam of an engine, between cheeks with play; in a hole longer than wide it may be a carriage on a rod."""
+    cheeks = [ring(6.1, 12.0, low, low + 8) for low in (-60, 52)]
+    posts = [block((-8, -60, low), (8, -11, low + 8)) for low in (-60, 52)]
+    stand = part("stand", *cheeks, *posts, block((-8, -80, -60), (8, -60, 60)))
+    beam = part("beam", ring(6.0, 12.0, -half, half), block((11, -5, -half), (90, 5, half)))
+    mechanism = anywhere(assembly(stand, beam, part("shaft", pin(6.0, -64, 64))), seed).mechanism(fixed=["stand"])
+    body = owners(mechanism)
+    assert body["shaft"] == body[host]
+    assert body["beam"] != body["stand"]
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_bearing_block_is_no_nut_of_its_shaft(seed):
+    """It has the form of a square nut, with play, and stands on the base with a face along the shaft."""
+    base = part("base", block((-40, -30, -10), (40, -10, 110)))
+    blocks = [
+        part(name, ring(5.2, 7.5, low, low + 12), *_around(7.5, 10.0, low, low + 12))
+        for name, low in (("block 1", 0), ("block 2", 80))
+    ]
+    shaft = part("shaft", pin(5.0, -20, 100), pin(9.0, -26, -20), block((8, -3, -26), (40, 3, -20)))
+    mechanism = anywhere(assembly(base, *blocks, shaft), seed).mechanism(fixed=["base"])
+    body = owners(mechanism)
+    assert body["block 1"] == body["block 2"] == body["base"]
+    assert kind_of(mechanism, "shaft", "base") in ("revolute", "cylindrical")
+
+
+def _around(inner, outer, low, high):
+    """Four bars around a round hole, as of a square."""
+    return [
+        block((-outer, -outer, low), (outer, -inner, high)),
+        block((-outer, inner, low), (outer, outer, high)),
+        block((-outer, -inner, low), (-inner, inner, high)),
+        block((inner, -inner, low), (outer, inner, high)),
+    ]
