@@ -63,8 +63,9 @@ def sleeves(known: Known) -> list[Sleeve]:
 
 
 def driven_sleeves(known: Known, found: list[Sleeve]) -> set[str]:
-    """Find the sleeves with plane faces along their axis in contact with another part than their housing, such as the
-    square of a hollow shaft in its wheel: these turn in their hole."""
+    """Find the sleeves that something turns in their hole: with plane faces along their axis in contact with another
+    part than their housing, such as the square of a hollow shaft in its wheel, or with pins in their slots, such as the
+    ring of an iris."""
     flat = [each for each in known.contacts if each.contact_state.is_flat]
     result = set()
     for sleeve in found:
@@ -73,7 +74,19 @@ def driven_sleeves(known: Known, found: list[Sleeve]) -> set[str]:
         planes = [each.surfaces[0] for each in flat if sleeve.part in each.parts and not beside & {*each.parts}]
         if any(isinstance(each, Plane) and abs(float(each.normal @ axis)) < ACROSS for each in planes):
             result.add(sleeve.part)
-    return result
+    return result | {sleeve.part for sleeve in found if _is_unison_ring(known, sleeve)}
+
+
+def _is_unison_ring(known: Known, sleeve: Sleeve) -> bool:
+    """Tell whether two or more parts have pins in slots of a sleeve, as blades have in the ring that moves them all.
+
+    Screws that hold a ring by its slots go on into holes of its housing.
+    """
+    slotted = [each for each in known.measured.slotted_pins(known.clearance) if each.part == sleeve.part]
+    housing = sleeve.housing.other.part
+    held = [pair.one for pair in known.axes if pair.other.part == housing and not pair.virtual]
+    free = [each.pin for each in slotted if not any(each.pin.on_axis_of(pin) for pin in held)]
+    return len({pin.part for pin in free} - {housing}) > 1
 
 
 def seated_sleeves(known: Known, found: list[Sleeve]) -> list[Inference]:

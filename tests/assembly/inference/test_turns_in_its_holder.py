@@ -107,3 +107,21 @@ def test_a_plate_between_two_parts_that_a_bolt_draws_together_is_clamped(out, fo
     of, _ = read(seed, ["one"], *lugs, *parts)
     assert all(of[f"{name} {k}"] == of["one"] for name in ("bolt", "nut") for k in (0, 1))
     assert [of[f"shim {k}"] == of["one"] for k in (0, 1)] == [clamped] * 2
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("driven", [True, False])
+def test_a_ring_with_pins_of_levers_in_its_slots_turns_in_its_case(driven, seed):
+    """A unison ring, as that of an iris or of guide vanes; by itself it is a bush with play, set into the hole."""
+    case, levers = [ring(30.1, 38.0, 0, 12), ring(20.0, 38.0, -4, 0)], []
+    driver = [ring(20.5, 30.0, 0, 10), ring(18.0, 20.5, 0, 16)]
+    for side in (-1, 1):
+        near, far = sorted((side * 21, side * 28))
+        driver += [block((near, low, 10), (far, high, 16)) for low, high in ((-5, -1.6), (1.6, 5))]
+        case.append(ring(3.1, 10.0, 0, 12, (side * 50, 0)))
+        inner, outer = sorted((side * 26, side * 46))
+        pins = pin(3.0, 0, 22, (side * 50, 0)), pin(1.5, 10.5 if driven else 18, 22, (side * 24.5, 0))
+        levers.append(part(f"lever {side}", block((inner, -2, 18), (outer, 2, 22)), *pins))
+    drawn = anywhere(assembly(part("case", *case), part("ring", *driver), *levers), seed)
+    body = owners(drawn.mechanism(fixed=["case"]))
+    assert (body["ring"] != body["case"]) is driven
