@@ -158,14 +158,26 @@ def leaves_all_moving(
     return not gone_by or (but_slides and all(name == "z" and (pair, "phi") in left for pair, name in gone_by))
 
 
-def leaves_bodies_moving(mechanism: Mechanism, other: Mechanism) -> bool:
-    """Tell whether all bodies that move on what is fixed still do so in another mechanism, by whichever coordinates.
+def leaves_bodies_moving(mechanism: Mechanism, other: Mechanism, held: Collection[Inference]) -> bool:
+    """Tell whether all bodies that move on what is fixed still do so in another mechanism, by whichever coordinates,
+    and those that move on each other by a joint still have its coordinates there, but for those that are held to each
+    other.
 
     A body that lies on another one lets joints of third ones move that move by nothing else: the webs of a crank turn
     on each other where one of their bearings may be pushed about.
     """
-    owner = body_of_parts(other.bodies)
-    return _still(other, owner) <= _still(mechanism, owner)
+    owner, gone = body_of_parts(other.bodies), {frozenset(each.parts) for each in held}
+    moving = moving_coordinates(mechanism.linkage)
+    left: dict[frozenset[str], set[str]] = {}
+    for each in other.all_joints:
+        left.setdefault(frozenset(owner[part] for part in each.parts), set()).update(each.coordinates)
+    kept = (
+        name in left.get(frozenset(owner[part] for part in each.parts), ())
+        for each in mechanism.all_joints
+        for name, full_name in zip(each.coordinates, each.full_names, strict=True)
+        if full_name in moving and frozenset(each.parts) not in gone
+    )
+    return all(kept) and _still(other, owner) <= _still(mechanism, owner)
 
 
 def _still(mechanism: Mechanism, owner: Mapping[str, str]) -> set[str]:

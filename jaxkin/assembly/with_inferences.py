@@ -154,7 +154,7 @@ def _hold_lying(trials: Trials, seats: list[Inference], trial: Trial) -> _Held:
         if held[0] in seats:
             break  # all are held together
         other = trials.make([*seats, *held])
-        if useful_freedoms(other.mechanism) and leaves_bodies_moving(trial.mechanism, other.mechanism):
+        if useful_freedoms(other.mechanism) and leaves_bodies_moving(trial.mechanism, other.mechanism, held):
             seats, trial = [*seats, *held], other
     return seats, trial
 
