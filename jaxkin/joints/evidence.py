@@ -75,6 +75,9 @@ class Certainty:
     """Faces are far, and the hole is short."""
     NEAR_LIMIT = Seen(9, 12)
     """Faces leave a play that is near to the largest one that counts as none."""
+    NAMED_MOTOR = Seen(9, 10)
+    """What is on a pin of a part that only its name makes a motor: it turned. These are of five other drawings, which
+    had been seen."""
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,10 @@ from jaxkin.assembly.inference.stop_faces import stands_across
 from jaxkin.assembly.inference.stopped_joint import StoppedJoint
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints import pairs
-from jaxkin.joints.evidence import Evidence, EvidenceKind
+from jaxkin.joints.evidence import Certainty, Doubt, Evidence, EvidenceKind
+from jaxkin.joints.kinds import JointKind
+
+_NAMED = Doubt(JointKind.FIXED, "only the name of one of its parts tells that it is a motor", Certainty.NAMED_MOTOR)
 
 
 def on_shafts(known: Known) -> list[tuple[SolidMotor, CommonAxis]]:
@@ -57,11 +60,9 @@ def motor_joints(known: Known) -> list[StoppedJoint]:
         exact = any(owners == {body[part] for part in each} for each in known.pinned)
         parts = known.in_order(pair.parts)
         joint = pairs.revolute("-".join(parts), *parts, point=pair.other.point, axis=motor.shaft.axis)
-        text = (
-            f"{pair.other.part!r} is on the shaft of {motor.part!r}, which has the sizes of {motor.told}, and is one "
-        )
-        text += "solid with it"
+        text = f"{pair.other.part!r} is on the shaft of {motor.part!r}, which {motor.told}, and is one solid with it"
         sizes = (("radius", motor.shaft.radius), ("clearance", pair.clearance))
-        inference = Inference.of(joint, Evidence(EvidenceKind.ENCLOSED, sizes, text))
+        doubt = _NAMED if motor.named else None
+        inference = Inference.of(joint, Evidence(EvidenceKind.ENCLOSED, sizes, text, doubt))
         result.append(StoppedJoint(inference, Stop.BEARING, exact))
     return result
