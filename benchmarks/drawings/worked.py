@@ -192,7 +192,7 @@ def printer_z_axis(random: np.random.Generator) -> Drawing:
         mount = mount.cut(bore(rod, Z, 4))
         mount = mount.union(box(spin + at(-24, 26, 0), spin + at(24, 30, 10))).cut(box((-190, -10, -5), (190, 60, 5)))
         mount = mount.cut(box((-200, -10, 0), (-170, 10, 20))).cut(box((170, -10, 0), (200, 10, 20)))
-        fast(d, "Base profile", **{f"Z motor mount {k}": mount.union(box(spin + at(-24, 24, 0), spin + at(24, 30, 6)))})
+        fast(d, "Base profile", **{f"Z motor mount {k}": mount.union(box(spin + at(-24, 24, -20), spin + at(24, 30, 6)))})
         fast(d, f"Z motor mount {k}", **{f"NEMA17 {k}": stepper(spin + 6 * Z, X, Z)})
         coupling = tube(spin + 12 * Z, Z, 2.5, 9, 13).union(tube(spin + 25 * Z, Z, 4, 9, 12))
         d.add(f"Flex coupling {k}", coupling.cut(cyl(spin + at(6, 0, 18), X, 1.5, 4)))

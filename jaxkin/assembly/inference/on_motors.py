@@ -6,7 +6,7 @@ from jaxkin.assembly.inference.axes import CommonAxis, engaged
 from jaxkin.assembly.inference.bores import NEAR_LENGTH
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.sleeves import MAX_LOOSE
+from jaxkin.assembly.inference.sleeves import MAX_LOOSE, SAME_FIT
 from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.assembly.inference.solid_motors import SolidMotor
 from jaxkin.assembly.inference.steppers import SAME_SHAFT
@@ -21,14 +21,15 @@ _NAMED = Doubt(JointKind.FIXED, "only the name of one of its parts tells that it
 
 
 def on_shafts(known: Known) -> list[tuple[SolidMotor, CommonAxis]]:
-    """Find the hubs on the shafts of motors; what lies on the flange of a motor is no hub."""
+    """Find the hubs on the shafts of motors; what lies on the flange of a motor is no hub, nor is what has play on the
+    pin of a part that only its name makes a motor, such as a wall that it goes through."""
     result = []
     for each in known.measured.motors:
         for pair in known.axes:
             on = pair.one.part == each.part and pair.one.on_axis_of(each.shaft) and not pair.virtual
             if on and abs(pair.one.radius / each.shaft.radius - 1) <= SAME_SHAFT:
                 hub = pair.other.part
-                tight = pair.clearance <= MAX_LOOSE * pair.other.radius
+                tight = pair.clearance <= (SAME_FIT if each.named else MAX_LOOSE) * pair.other.radius
                 if tight and not _lies_on_flange(known, each, hub):
                     result.append((each, pair))
     return result
