@@ -44,7 +44,7 @@ from jaxkin.assembly.inference.lock_nuts import locked_threads
 from jaxkin.assembly.inference.lying_on_one import lying_on_one
 from jaxkin.assembly.inference.meshing_wheels import meshing_wheels
 from jaxkin.assembly.inference.motors import motor_shafts
-from jaxkin.assembly.inference.on_motors import motor_joints, on_shafts
+from jaxkin.assembly.inference.on_motors import held_motors, motor_joints, on_shafts
 from jaxkin.assembly.inference.on_rings import clamped_on_rings
 from jaxkin.assembly.inference.one_screw import clamped_by_one_screw
 from jaxkin.assembly.inference.pinned_slides import pinned_slides
@@ -237,6 +237,7 @@ class _StoppedJoints(NamedTuple):
 def _take_joints_between_bodies(known: Known, fastening: Collection[str]) -> _StoppedJoints:
     """Take joints between bodies, but for those that would replace a slide: by bearings, balls, shoes, hinges, slides,
     wheels."""
+    known.take(held_motors(known))
     known.take(bearing_joints(known, known.measured.bearings))
     known.take(ball_joints(known))
     known.take(on_lead_screws(known, lead_nuts(known)))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from jaxkin.assembly.inference.axes import CommonAxis, engaged
 from jaxkin.assembly.inference.bores import NEAR_LENGTH
 from jaxkin.assembly.inference.inference import Inference
@@ -45,6 +47,26 @@ def _lies_on_flange(known: Known, motor: SolidMotor, part: str) -> bool:
     ]
     across = [plane for plane in planes if isinstance(plane, Plane) and stands_across(plane, axis)]
     return any(abs(float(plane.point @ axis) - tip) > NEAR_LENGTH * motor.shaft.radius for plane in across)
+
+
+def bracket_of(known: Known, motor: str, body: Mapping[str, str]) -> str | None:
+    """Find the only body that a motor touches beside what is on its shaft: it is screwed on there."""
+    on_shaft = {body[part] for pair in known.driven if motor in pair for part in pair}
+    touching = {body[part] for pair in known.touching if motor in pair for part in pair}
+    owners = touching - on_shaft - {body[motor]}
+    return owners.pop() if len(owners) == 1 else None
+
+
+def held_motors(known: Known) -> list[Inference]:
+    """Join motors that drive something with the only body that they touch otherwise: no case turns in its seat."""
+    result = []
+    for motor in dict.fromkeys(each.part for each in known.measured.motors):
+        drives = any(motor in pair for pair in known.driven)
+        if drives and (bracket := bracket_of(known, motor, known.body)) is not None:
+            text = f"the motor {motor!r} touches only {bracket!r} beside what it drives, and is held there"
+            evidence = Evidence(EvidenceKind.ENCLOSED, (), text)
+            result.append(Inference(known.in_order((motor, bracket)), evidence))
+    return result
 
 
 def motor_joints(known: Known) -> list[StoppedJoint]:

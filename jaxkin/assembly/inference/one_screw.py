@@ -13,6 +13,7 @@ from jaxkin.assembly.inference.fasteners import Stack, beside
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.link_ends import link_ends
+from jaxkin.assembly.inference.on_motors import bracket_of
 from jaxkin.assembly.inference.sleeves import SAME_FIT, is_round_about
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
@@ -75,12 +76,9 @@ def _with_motors(known: Known, body: Mapping[str, str]) -> dict[str, str]:
     """Count each motor that is one solid with its shaft as one body with the only one that it touches beside its hubs:
     it is screwed on there."""
     result = dict(body)
-    for motor in {each.part for each in known.measured.motors}:
-        beside_it = (pair for pair in known.touching if motor in pair and pair not in known.driven)
-        owners = {result[part] for pair in beside_it for part in pair} - {result[motor]}
-        if len(owners) == 1:
-            (owner,) = owners
-            result = {part: owner if other == result[motor] else other for part, other in result.items()}
+    for motor in dict.fromkeys(each.part for each in known.measured.motors):
+        if (bracket := bracket_of(known, motor, result)) is not None:
+            result = {part: bracket if other == result[motor] else other for part, other in result.items()}
     return result
 
 

@@ -53,6 +53,19 @@ def test_what_is_on_the_pin_of_a_part_that_is_named_a_motor_turns_and_is_told_as
 
 
 @pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(("name", "held"), [("gearmotor 1", True), ("part", False)])
+def test_the_round_case_of_a_motor_does_not_turn_in_its_seat(name, held, seed):
+    """By exact contacts a shoulder and a bore let it turn there, as a journal does."""
+    base = part("base", ring(12.0, 20.0, -20, 0), block((14, -60, -20), (60, -14, 0)), pin(4.0, 0, 20, (50, -40)))
+    lever = part("lever", ring(4.1, 8.0, 5, 15, (50, -40)), block((57, -43, 5), (110, -37, 15)))  # something that moves
+    case = part(name, pin(12.0, -50, 0), pin(14.0, -55, -20), pin(3.0, 0, 20))
+    drawn = assembly(base, case, part("wheel", ring(3.0, 25.0, 6, 18)), lever)
+    body = owners(anywhere(drawn, seed).mechanism(fixed=["base"]))
+    assert (body[name] == body["base"]) is held
+    assert not held or body["wheel"] != body["base"]
+
+
+@pytest.mark.parametrize("seed", SEEDS)
 def test_a_plate_on_the_flange_of_a_stepper_motor_is_no_hub(seed):
     motor = part("motor", block((-21, -21, -40), (21, 21, 0)), pin(11.0, 0, 2), pin(2.5, 2, 22))
     plate = part("plate", ring(2.5, 4.0, 2, 8), block((-30, 4, 2), (30, 30, 8)))
