@@ -26,12 +26,13 @@ import scipy.optimize
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
 from peer_engines import Missing, pylinkage_linkage
 
+from jaxkin._progress import ProgressBar
 from jaxkin.design.augmented_lagrangian import MET, Penalty
 from jaxkin.design.least_squares import least_squares
 from jaxkin.design.optimisers import LevenbergMarquardt
 from jaxkin.design.optimize import POOL, _best_of
 from jaxkin.design.problem import design_problem
-from jaxkin.design.search import ProgressBar, search
+from jaxkin.design.search import search
 from jaxkin.design.variables import spread, variables
 from jaxkin.examples.paths import PATHS
 from jaxkin.solve.options import SolverOptions
@@ -228,7 +229,7 @@ def race() -> None:
         def downhill(vectors, solver, weight=weight, stop=stop, constraints=constraints):
             penalty = Penalty.plain(weight, len(vectors), constraints)
             active = np.ones(len(vectors), bool)
-            found, _, history = search(solver, vectors, penalty, active, stop, ProgressBar(stop.iterations, False))
+            found, _, history = search(solver, vectors, penalty, active, stop, ProgressBar(stop.iterations, False, ""))
             verdict = solver.judge(found, penalty.shifts)
             judged = int(np.isfinite(np.concatenate(history)).sum()) + len(vectors)
             return bool(np.any((verdict.losses <= stop.target) & (verdict.violations <= MET))), judged
