@@ -99,10 +99,9 @@ def find_limit(
         for event in _events(curve, begun, direction, ranges, number if turns else None):
             if (end := _crossed(curve, here, there, length, event)) is not None:
                 located.append((*curve.locate(here, end, event.value), event))
-        if located:
-            _, at, first = min(located, key=lambda each: each[0])
-            if first.kind is not LimitKind.NONE:
-                return FoundLimit(first.kind, at, first.column, False)
+        for _, at, event in sorted(located, key=lambda each: each[0]):  # a range may end just behind a full turn
+            if event.kind is not LimitKind.NONE:
+                return FoundLimit(event.kind, at, event.column, False)
             if ahead is None and _is_home(curve, begun, at, features):
                 advance = at.q - begun.q
                 ahead = _periods_within(curve, ranges, advance, lowest, highest)

@@ -18,11 +18,10 @@ from jaxkin.linkage.host_closure import ClosedLoops, ClosureJacobian, LoopCoordi
 from jaxkin.solve.continuation.step import CROSSING
 
 LONGEST_STEP = 0.2
-"""Longest step, radians and characteristic lengths of all coordinates together, while no slide is longer than the
-mechanism: it grows with the longest slide beyond that, which turns the mechanism by so much less."""
+"""Longest step, radians and characteristic lengths of all coordinates together; slides over their `reach`, as long ones
+turn the mechanism by so much less."""
 FIRST_STEP = 0.02
-"""First step, and the longest one where the drive is slow: a dwell may lock twice within a longer one. It grows alike.
-"""
+"""First step, and the longest one where the drive is slow: a dwell may lock twice within a longer one."""
 SHORTEST_STEP = 1e-8
 """Step below which the curve counts as lost."""
 SLOW = 0.1
@@ -148,7 +147,8 @@ class MotionCurve:
         Beside such a pose the curve may turn back sharply, which a long step would not see.
         """
         longest = FIRST_STEP if abs(here.tangent[self.drive]) < SLOW else LONGEST_STEP
-        longest *= self.reach(here.q)
+        angles, slides = np.delete(here.tangent, self.slides), here.tangent[self.slides]
+        longest /= float(np.hypot(np.linalg.norm(angles), np.linalg.norm(slides) / self.reach(here.q)))
         if (fall := before.sigma - here.sigma) > 0:
             longest = min(longest, max(0.5 * length * here.sigma / fall, CROSSING))
         return min(2.0 * length, longest)
