@@ -15,6 +15,9 @@ _MAX_MISTAKES = 5
 _MAX_SHOWN_LETTERS = 60
 """Letters of what arrived that are shown."""
 
+_MEANT = {"count": "poses", "steps": "poses", "number": "poses", "start": "from", "stop": "to", "end": "to"}
+"""Keys that other programs have -> those of a study, where a table has these: by their letters others are nearer."""
+
 _EXPECTED = {
     "string_type": "a text in quotes",
     "list_type": "a list in brackets",
@@ -61,7 +64,9 @@ def _said(error: Any, keys: Mapping[tuple[str, ...], Sequence[str]]) -> str:
 def _unknown(loc: Sequence[str | int], place: str, keys: Mapping[tuple[str, ...], Sequence[str]]) -> str:
     *table, key = map(str, loc)
     by_name = keys.get((*table[:-1], "*")) if table else None
-    advice = _misplaced(loc, keys) or nearest(key, keys.get(tuple(table)) or by_name or ())
+    known = keys.get(tuple(table)) or by_name or ()
+    meant = f"; did you mean {_MEANT[key]!r}?" if _MEANT.get(key) in known else ""
+    advice = _misplaced(loc, keys) or meant or nearest(key, known)
     if by_name and "did you mean" not in advice:
         advice += f"; a name with a dot stands in quotes: {table[-1] + '.' + key!r}"
     return f"there is no key {place!r}{advice}"

@@ -127,6 +127,7 @@ HINGE = '[joints.A]\nkind = "revolute"\nparts = ["ground", "crank"]\n'
         ("x = " + "[" * 100_000, "study.toml cannot be read as TOML: it is nested too deeply"),
         ("#" * 1_000_001, "study.toml has 1000001 bytes: a study has 1000000 at most"),
         (HEAD + "fixd = 3", "there is no key 'fixd'; did you mean 'fixed'?"),
+        (HEAD + "drive.A = {from = 0, to = 1, count = 5}", "there is no key 'drive.A.count'; did you mean 'poses'?"),
         (f'geometry = "{FOURBAR}"\nfixed = "ground"', "fixed: expected a list in brackets, got 'ground'"),
         (f'geometry = "{FOURBAR}"\nfixed = [3]', "fixed[0]: expected a text in quotes, got 3"),
         (f'geometry = "{FOURBAR}"\nfixed = []', "fixed: expected a list of at least 1, got []"),
