@@ -54,8 +54,11 @@ def test_what_weighs_nothing_is_not_weighed_with_the_rest(tmp_path):
     inside = (
         "<geom size='.2' mass='0.0' pos='1 0 0'/><geom size='.1' group='3'/><geom size='.3' group='5' density='0'/>"
     )
-    for given in ({}, {"density": 7850}):  # what the file says goes before a density for all
-        mass, centre, _ = of_body(loaded(model(inside), tmp_path), **given)
+    mechanism = loaded(model(inside), tmp_path)
+    alone = of_body(mechanism)
+    with pytest.warns(UserWarning, match="the density is that of no part: the file says what 'a' weigh"):
+        beside = of_body(mechanism, density=7850)
+    for mass, centre, _ in (alone, beside):
         np.testing.assert_allclose(mass, 1000 * 4 / 3 * np.pi * 0.1**3, rtol=1e-12)
         np.testing.assert_allclose(centre, [1, 2, 3], atol=1e-12)
 
