@@ -29,11 +29,12 @@ def step_off(
     function of Lagrange.
     """
     now, _ = problem.equations(x, share)
-    stuck = is_stationary(now, x, bounds) & (np.linalg.norm(now.targets, axis=1) > enough)
+    closed = tangent(now)
+    stuck = is_stationary(now, closed, x, bounds) & (np.linalg.norm(now.targets, axis=1) > enough)
     if not stuck.any():
         return x, stuck
-    _, held = slope(now, x, bounds)
-    movable = without(tangent(now), np.abs(held) > HOLDS * scale(now)[:, None])
+    _, held = slope(now, closed, x, bounds)
+    movable = without(closed, np.abs(held) > HOLDS * scale(now)[:, None])
     falls = np.einsum("pij,pi->pj", now.targets_jacobian, now.targets) + held
     forces, _ = least(now.closure_jacobian.swapaxes(1, 2), falls)
 

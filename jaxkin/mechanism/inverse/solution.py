@@ -11,7 +11,7 @@ from jaxtyping import Bool, Float
 from jaxkin.mechanism.inverse.bounded import Bounds
 from jaxkin.mechanism.inverse.problem import InverseProblem
 from jaxkin.mechanism.inverse.saddles import step_off
-from jaxkin.mechanism.inverse.step import InverseStep, StepEquations, is_stationary, step
+from jaxkin.mechanism.inverse.step import InverseStep, StepEquations, is_stationary, step, tangent
 
 STAGES = 8
 """Steps in which targets are moved from the assembled pose to where they are asked for, so that its branch is kept."""
@@ -101,7 +101,7 @@ def _finished(
         x = _iterated(problem, x, bounds, 1.0, iterations)
     now, _ = problem.equations(x, 1.0)
     error, closure = (np.linalg.norm(each, axis=1) for each in (now.targets, now.closure))
-    return InversePoses(x, error, closure, (error <= REACHED) | is_stationary(now, x, bounds))
+    return InversePoses(x, error, closure, (error <= REACHED) | is_stationary(now, tangent(now), x, bounds))
 
 
 def _iterated(
@@ -123,7 +123,7 @@ def _iterated(
         )
         largest = np.abs(found.move).max(axis=1, initial=0.0)
         goes = (largest > CONVERGED) & (
-            settled | (found.to_rest > AT_REST) | ~is_stationary(here, x[left], bounds, LEAST)
+            settled | (found.to_rest > AT_REST) | ~is_stationary(here, found.tangent, x[left], bounds, LEAST)
         )
         if not goes.any():
             break

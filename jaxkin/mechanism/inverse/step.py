@@ -48,6 +48,8 @@ class InverseStep(NamedTuple):
     """Norm of the part that moves the inputs towards where they rest, and changes errors in the second order only."""
     foreseen: Float[np.ndarray, " poses"]
     """Squared errors after it."""
+    tangent: Float[np.ndarray, "poses columns columns"]
+    """The projector on the movements that keep the loops closed: see `tangent`."""
 
 
 def step(
@@ -60,23 +62,28 @@ def step(
     """Compute the step of each pose, which keeps limits; `damping` is that of Levenberg and Marquardt."""
     room = Bounds(bounds.low - x, bounds.high - x)
     free = np.broadcast_to(np.eye(x.shape[1]), (*x.shape, x.shape[1]))
-    move, free = fit(equations.closure_jacobian, -equations.closure, 0 * damping, free, np.zeros_like(x), room)
-    move, free = fit(equations.targets_jacobian, equations.targets, damping, free, move, room)
+    move, closed = fit(equations.closure_jacobian, -equations.closure, 0 * damping, free, np.zeros_like(x), room)
+    move, free = fit(equations.targets_jacobian, equations.targets, damping, closed, move, room)
     left = equations.targets - np.einsum("pij,pj->pi", equations.targets_jacobian, move)
-    chosen = np.eye(x.shape[1]) * np.broadcast_to(inputs, x.shape)[:, None, :]
-    rested, _ = fit(chosen, -equations.rest * inputs, damping, free, move, room)
-    return InverseStep(rested, np.linalg.norm(rested - move, axis=1), np.sum(left**2, axis=1))
+    inputs, rows = np.broadcast_to(inputs, x.shape), np.flatnonzero(inputs.any(axis=0))
+    chosen = np.eye(x.shape[1])[rows] * inputs[:, rows, None]
+    rested, _ = fit(chosen, -(equations.rest * inputs)[:, rows], damping, free, move, room)
+    return InverseStep(rested, np.linalg.norm(rested - move, axis=1), np.sum(left**2, axis=1), closed)
 
 
 def slope(
-    equations: StepEquations, x: Float[np.ndarray, "poses columns"], bounds: Bounds
+    equations: StepEquations,
+    closed: Float[np.ndarray, "poses columns columns"],
+    x: Float[np.ndarray, "poses columns"],
+    bounds: Bounds,
 ) -> tuple[Float[np.ndarray, "poses columns"], Float[np.ndarray, "poses columns"]]:
     """Find the movement of steepest descent of half the squared errors that keeps loops and limits, and multipliers.
 
-    The movement is zero where the condition of Karush, Kuhn and Tucker holds; the multipliers are those of the limits.
+    `closed` is the `tangent`. The movement is zero where the condition of Karush, Kuhn and Tucker holds; the
+    multipliers are those of the limits.
     """
     falls = np.einsum("pij,pi->pj", equations.targets_jacobian, equations.targets)
-    return downhill(tangent(equations), falls, x, bounds)
+    return downhill(closed, falls, x, bounds)
 
 
 def tangent(equations: StepEquations) -> Float[np.ndarray, "poses columns columns"]:
@@ -91,8 +98,15 @@ def scale(equations: StepEquations) -> Float[np.ndarray, " poses"]:
 
 
 def is_stationary(
-    equations: StepEquations, x: Float[np.ndarray, "poses columns"], bounds: Bounds, cosine: float = STATIONARY
+    equations: StepEquations,
+    closed: Float[np.ndarray, "poses columns columns"],
+    x: Float[np.ndarray, "poses columns"],
+    bounds: Bounds,
+    cosine: float = STATIONARY,
 ) -> Bool[np.ndarray, " poses"]:
-    """Tell at which poses no movement within loops and limits lessens the errors, to first order."""
-    down, _ = slope(equations, x, bounds)
+    """Tell at which poses no movement within loops and limits lessens the errors, to first order.
+
+    `closed` is the `tangent`.
+    """
+    down, _ = slope(equations, closed, x, bounds)
     return np.linalg.norm(down, axis=1) <= cosine * scale(equations)
