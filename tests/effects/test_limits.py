@@ -215,11 +215,8 @@ def test_drives_outside_of_loops_and_over_many_turns():
 
 def test_a_screw_is_followed_over_many_turns_of_its_nut():
     """Slides that are long for the mechanism have longer steps, which must not pass over turns of its hinges."""
-    joints = [
-        jk.revolute("A", "ground", "screw", point=(0, 0, 0), axis=Z),
-        jk.screw("N", "screw", "nut", point=(0, 0, 0), axis=Z, pitch=1.5),
-        jk.prismatic("S", "ground", "nut", axis=Z),
-    ]
+    joints = [jk.revolute("A", "ground", "screw", point=(0, 0, 0), axis=Z), jk.prismatic("S", "ground", "nut", axis=Z)]
+    joints.append(jk.screw("N", "screw", "nut", point=(0, 0, 0), axis=Z, pitch=1.5))
     found = jk.limits(jk.Mechanism.build(fixed=["ground"], joints=joints), "A", ranges={"S": (-20.0, 45.0)})
     # the nut advances by its pitch in a turn of the screw, against the screw that it holds
     np.testing.assert_allclose(found.range, [-2 * np.pi * 30.0, 2 * np.pi * 40.0 / 3.0], rtol=0, atol=1e-9)

@@ -56,7 +56,7 @@ def test_what_weighs_nothing_is_not_weighed_with_the_rest(tmp_path):
     )
     mechanism = loaded(model(inside), tmp_path)
     alone = of_body(mechanism)
-    with pytest.warns(UserWarning, match="the density is that of no part: the file says what 'a' weigh"):
+    with pytest.warns(UserWarning, match="the density is that of no part: the file has the mass of 'a'"):
         beside = of_body(mechanism, density=7850)
     for mass, centre, _ in (alone, beside):
         np.testing.assert_allclose(mass, 1000 * 4 / 3 * np.pi * 0.1**3, rtol=1e-12)

@@ -151,7 +151,7 @@ def masses(
         raise ValueError(_what_is_missing(missing, solids, density))
     if passed_over and not taken:
         warnings.warn(
-            f"the density is that of no part: the file says what {listed([*map(repr, passed_over)])} weigh, and goes "
+            f"the density is that of no part: the file has the mass of {listed([*map(repr, passed_over)])}, and goes "
             "before a density for all parts; one that names a part goes before the file, as in "
             f"{{{passed_over[0]!r}: 'steel'}}",
             stacklevel=2,
