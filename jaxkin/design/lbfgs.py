@@ -158,11 +158,14 @@ class _Steps(NamedTuple):
     begun: Callable[..., Any]
     """Make the state of jaxopt, of a box, and units with value and slope."""
     stepped: Callable[..., Any]
-    """Take a step of a length: from a box, units and their state, to units and state with a value and a slope."""
+    """Take a step of a length: from a box, units and their state, to units and state with a value and a slope. Called
+    with the length 1 first, for where the step leads, and again when the loss is known there: the direction is found
+    twice, in a fraction of the time that the loss takes."""
 
 
 @cache
 def _steps() -> _Steps:
+    """Make the programs of jaxopt, whose function returns the value and the slope that it is given."""
     package = jaxopt()
 
     def solver(length, value, slope):

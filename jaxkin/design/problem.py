@@ -45,11 +45,6 @@ class Judged(NamedTuple):
     margins: Float[Array, " constraints"]
     """Values of constraints, negative where one is violated."""
 
-    @property
-    def finite(self) -> Array:
-        """Whether every number is finite."""
-        return jnp.all(jnp.isfinite(jnp.concatenate(self)))
-
     def weighted(self, penalty: Penalty) -> WeightedResiduals:
         """Weight what is violated, so that its squares are the penalty."""
         root = jnp.sqrt(penalty.weight)

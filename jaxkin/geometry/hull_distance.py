@@ -19,7 +19,7 @@ _NEARER = 1e-10
 _FLAT = 1e-12
 """Share of the product of its edges' squares below which a simplex is flat."""
 _SUBSETS = [list(subset) for count in (1, 2, 3) for subset in combinations(range(4), count)]
-
+"""One to three corners of a simplex, by their numbers: its corners, edges and faces."""
 
 Support = Callable[[Int[np.ndarray, " _"], Float[np.ndarray, "_ 3"]], Float[np.ndarray, "_ 2 3"]]
 """Finds at some places, along a direction each, the corners by which the second of two hulls is least ahead of the
