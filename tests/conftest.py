@@ -41,25 +41,23 @@ EVERY_CASE = ("tests/docs/test_code_blocks.py", "tests/mechanism/test_hard_cases
 
 def pytest_addoption(parser):
     parser.addoption(
-        "--cases",
-        type=int,
-        choices=(1, 2),
-        help="of each test with several cases the last one, or the first and the last, as the others repeat what costs "
-        "most",
+        "--last-case",
+        action="store_true",
+        help="of each test with several cases the last one, as the others repeat what costs most",
     )
 
 
 def pytest_collection_modifyitems(config, items):
-    """With `--cases` leave out all cases of a test but the last one, or the first and the last one."""
-    if not (most := config.getoption("cases")):
+    """With `--last-case` leave out all cases of a test but the last one."""
+    if not config.getoption("last_case"):
         return
-    cases: dict[str, list] = {}
-    for item in items:
-        own = item.nodeid if item.nodeid.startswith(EVERY_CASE) else item.nodeid.partition("[")[0]
-        cases.setdefault(own, []).append(item)
-    kept = {id(each) for some in cases.values() for each in (some[-1], some[0])[:most]}
-    config.hook.pytest_deselected(items=[item for item in items if id(item) not in kept])
-    items[:] = [item for item in items if id(item) in kept]
+
+    def test(item) -> str:
+        return item.nodeid if item.nodeid.startswith(EVERY_CASE) else item.nodeid.partition("[")[0]
+
+    last = {test(item): item for item in items}
+    config.hook.pytest_deselected(items=[item for item in items if last[test(item)] is not item])
+    items[:] = [item for item in items if last[test(item)] is item]
 
 
 MOST_MAPS = 15_000
