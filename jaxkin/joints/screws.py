@@ -63,6 +63,8 @@ def chain(
 
 def displacements(joint: Joint, q: Float[np.ndarray, "poses freedoms"]) -> Float[np.ndarray, "3 4 poses"]:
     """Compute the displacements of part 2 of a joint relative to part 1, in world coordinates, for many poses."""
+    if not joint.freedoms and np.array_equal(joint.frames_1, joint.frames_2):
+        return np.broadcast_to(np.eye(4)[:3, :, None], (3, 4, len(q)))  # exactly, whatever the frames round to
     found, owns = np.eye(4)[:3, :, None], coordinate_ranges(joint.movements)
     numbered = zip(joint.movements, owns, joint.frames_1, joint.frames_2, joint.splines, strict=True)
     for movement, own, frame_1, frame_2, spline in numbered:
@@ -84,6 +86,15 @@ def inverses(poses: Float[np.ndarray, "3 4 poses"]) -> Float[np.ndarray, "3 4 po
     """Invert displacements: rotation R^T, translation -R^T t."""
     rotated = poses[:, :3].swapaxes(0, 1)
     return np.concatenate([rotated, -np.einsum("ijn,jn->in", rotated, poses[:, 3])[:, None]], axis=1)
+
+
+def products(
+    one: Float[np.ndarray, "3 4 poses"], other: Float[np.ndarray, "3 4 poses"]
+) -> Float[np.ndarray, "3 4 poses"]:
+    """Multiply displacements pose by pose: first `other`, then `one`, in world coordinates."""
+    found = one[:, 0, None] * other[None, 0] + one[:, 1, None] * other[None, 1] + one[:, 2, None] * other[None, 2]
+    found[:, 3] += one[:, 3]
+    return found
 
 
 def complement(screws: Screws) -> Float[np.ndarray, "constraints 6"]:

@@ -16,32 +16,28 @@ from jaxkin.geometry.chains import coordinate_ranges
 from jaxkin.geometry.movements import displace_point, displaced
 from jaxkin.geometry.rigid import Rigid, as_matrices, as_rigid, inverse, product
 from jaxkin.joints.joint import Joint
+from jaxkin.linkage.host_transforms import host_transforms
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.topology.structure import Structure
 
 JointDisplacements = tuple[Float[Array, "poses _"], ...]
 """For each joint of `Linkage.joints` its coordinates: radians, and lengths in the unit of the mechanism."""
 
-MAX_PADDED_POSES = 8192
-"""Most poses of a range that is padded: copying a longer one takes as long as computing it."""
+MAX_HOST_POSES = 8192
+"""Most poses of a range that is computed on the host, where nothing is compiled: of longer ones the program takes less
+time, once it is there."""
 
 
 def part_transforms(
     linkage: Linkage, displacements: tuple[Float[Array | np.ndarray, "poses _"], ...]
 ) -> tuple[Float[Array, "poses 4 4"], ...]:
-    """Compute the displacements of all parts from the assembled pose, in the order of `linkage.parts`, in the world.
-
-    Ranges of known numbers are padded to a few lengths, so that those of similar length share a compiled program.
-    """
+    """Compute the displacements of all parts from the assembled pose, in the order of `linkage.parts`, in the world."""
     poses = displacements[0].shape[0]
     unknown = traced((linkage, displacements)) or inside_trace()
-    if not 0 < poses <= MAX_PADDED_POSES or unknown or _on_several_devices(displacements):
+    if poses > MAX_HOST_POSES or unknown or _on_several_devices(displacements):
         return transforms(linkage.structure, linkage.joints, displacements)
-    length = 2 ** max(5, (poses - 1).bit_length())
-    # on the host: there it costs a copy, not a program for every length
-    padded = tuple(np.pad(np.asarray(q), ((0, length - poses), (0, 0)), mode="edge") for q in displacements)
-    found = transforms(linkage.structure, linkage.joints, padded)
-    return tuple(jnp.asarray(np.asarray(each)[:poses]) for each in found)
+    found = host_transforms(linkage.structure, linkage.joints, [np.asarray(q) for q in displacements])
+    return jax.device_put(tuple(each.astype(displacements[0].dtype, copy=False) for each in found))
 
 
 def _on_several_devices(displacements: tuple[Array | np.ndarray, ...]) -> bool:

@@ -32,14 +32,18 @@ def angles():
     return jnp.asarray(np.random.default_rng(0).uniform(-3, 3, (3, 5)))
 
 
-def transforms(mechanism, angles):
-    """By part; the rows of angles are those of the hinges, in order."""
+def displacements(mechanism, angles):
+    """Of all joints; the rows of angles are those of the hinges, in order."""
     columns = {
         **{name: row[:, None] for name, row in zip(POINTS, angles, strict=True)},
         "grip": angles[0][:, None][:, :0],
     }
-    found = part_transforms(mechanism.linkage, tuple(columns[name] for name in mechanism.joints))
-    return dict(zip(mechanism.parts, found, strict=True))
+    return tuple(columns[name] for name in mechanism.joints)
+
+
+def transforms(mechanism, angles):
+    """By part."""
+    return dict(zip(mechanism.parts, part_transforms(mechanism.linkage, displacements(mechanism, angles)), strict=True))
 
 
 def turned(name, angle):
@@ -165,4 +169,23 @@ def test_ranges_of_similar_length_share_a_program(arm):
         for part, found in transforms(arm, angles[:, :count]).items():
             assert found.shape == (count, 4, 4)
             np.testing.assert_allclose(found, whole[part][:count], rtol=0, atol=ROUNDING)
+    assert joint_motion.transforms._cache_size() == before
+
+
+def test_what_is_computed_on_the_host_is_what_a_program_computes(arm, angles):
+    """With a pose that is not known, which leaves only the parts before it."""
+    columns = displacements(arm, angles.at[1, 2].set(jnp.nan))
+    on_host = part_transforms(arm.linkage, columns)
+    compiled = joint_motion.transforms(arm.linkage.structure, arm.linkage.joints, columns)
+    known = {part: bool(np.isfinite(place[2]).all()) for part, place in zip(arm.parts, on_host, strict=True)}
+    assert known == {"base": True, "arm": True, "elbow": False, "lamp": False, "hand": False}
+    for one, other in zip(on_host, compiled, strict=True):
+        np.testing.assert_allclose(one, other, rtol=0, atol=ROUNDING)
+
+
+def test_few_poses_of_known_numbers_compile_nothing(arm, angles):
+    part_transforms(arm.linkage, displacements(arm, angles))
+    before = joint_motion.transforms._cache_size()
+    for poses in (1, 3, 4, 100, joint_motion.MAX_HOST_POSES):
+        part_transforms(arm.linkage, displacements(arm, jnp.zeros((3, poses))))
     assert joint_motion.transforms._cache_size() == before
