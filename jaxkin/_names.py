@@ -7,7 +7,7 @@ import re
 from collections.abc import Container, Iterable, Mapping, Sequence
 from difflib import get_close_matches
 from itertools import count
-from typing import Protocol
+from typing import Protocol, SupportsInt
 
 _MAX_KNOWN = 8
 """Known names that a message lists at most: more are not read."""
@@ -100,7 +100,8 @@ def _words(name: str) -> list[str]:
     return sorted(re.findall(r"[^\W_]+", name.casefold()))
 
 
-def counted(number: int, noun: str, none: str = "0") -> str:
+def counted(number: SupportsInt, noun: str, none: str = "0") -> str:
     """Write a number with a noun in singular or plural, and `none` for zero."""
+    number = int(number)
     plural = f"{noun[:-1]}ies" if noun[-1:] == "y" else noun + ("es" if noun.endswith("s") else "s")
     return f"{number or none} {noun if number == 1 else plural}"

@@ -11,6 +11,7 @@ from jaxtyping import Bool, Float
 
 from jaxkin._grouped import MAX_LINES
 from jaxkin._guesses import Result
+from jaxkin._names import counted
 from jaxkin.effects.pose_axis import drive_axis, pose_names
 from jaxkin.effects.pose_plot import NAMED, draw_lines, save_rows
 from jaxkin.mechanism.motion import Motion
@@ -76,7 +77,7 @@ class Clashes(Result):
             return f"none of {poses} poses is closed: whether parts clash is not known"
         named = pose_names(self.motion)
         clash = np.flatnonzero(self.clashing.any(axis=1)).tolist()
-        told = f"{known} closed poses of {poses}" if known < poses else f"{poses} poses"
+        told = f"{known} closed poses of {poses}" if known < poses else counted(poses, "pose")
         count = "1 pair of parts comes" if len(self.pairs) == 1 else f"{len(self.pairs)} pairs of parts come"
         lines = [f"{count} near each other in {told}: {len(clash)} clash"]
         if known < poses:
@@ -87,8 +88,8 @@ class Clashes(Result):
         for pair in clash[:MAX_LINES]:
             row = np.nan_to_num(self.depths[pair])
             lines.append(
-                f"  {self._named(pair)}: clash at {np.sum(row > 0)} poses from {named(np.argmax(row > 0))} on, deepest "
-                f"{self._length(row.max())} at {named(self._first_at(row, row.max()))}"
+                f"  {self._named(pair)}: clash at {counted(np.sum(row > 0), 'pose')} from {named(np.argmax(row > 0))} "
+                f"on, deepest {self._length(row.max())} at {named(self._first_at(row, row.max()))}"
             )
         free = [pair for pair in range(len(self.pairs)) if pair not in clash and not self.joined[pair]]
         least = {pair: np.where(np.isnan(self.clearances[pair]), np.inf, self.clearances[pair]) for pair in free}

@@ -18,6 +18,7 @@ from jaxtyping import Bool, Float
 from jaxkin._arguments import check_known, check_motion
 from jaxkin._grouped import MAX_LINES
 from jaxkin._guesses import Result
+from jaxkin._names import counted
 from jaxkin.assembly.kept_contacts import kept_contacts
 from jaxkin.contacts.contact import Contact
 from jaxkin.contacts.separation import FaceDisplacements, Gaps
@@ -80,8 +81,8 @@ class ContactValidity(Result):
         for number in lost[:MAX_LINES]:
             gaps = np.nan_to_num(self.gaps[number])
             lines.append(
-                f"  {self._named(number)}: lost at {np.sum(gaps > 0)} poses from {at(np.argmax(gaps > 0))} on, widest "
-                f"{self._length(gaps.max())} at {at(np.argmax(gaps))}"
+                f"  {self._named(number)}: lost at {counted(np.sum(gaps > 0), 'pose')} from {at(np.argmax(gaps > 0))} "
+                f"on, widest {self._length(gaps.max())} at {at(np.argmax(gaps))}"
             )
         if len(lost) > MAX_LINES:
             lines.append(f"  and {len(lost) - MAX_LINES} more: see .gaps")

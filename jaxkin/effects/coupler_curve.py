@@ -16,7 +16,7 @@ from jaxtyping import Array, Float
 from jaxkin._arguments import check_known, check_motion
 from jaxkin._files import save_figure
 from jaxkin._guesses import Result
-from jaxkin._names import listed, nearest
+from jaxkin._names import counted, listed, nearest
 from jaxkin.effects.curve_range import DOUBLE, SINGLE, CurvePoints, CurveRange, Evaluate, range_of
 from jaxkin.effects.cusps_crossings import Crossing, Cusp, crossings_of, cusps_of
 from jaxkin.effects.pose_plot import save_rows
@@ -55,7 +55,7 @@ class CouplerCurve(Result):
 
     def __str__(self) -> str:
         """Describe the curve in a line, and each cusp and crossing in one."""
-        about = f"Curve of a point of {self.part} over {self.drive}, {len(self.inputs)} poses"
+        about = f"Curve of a point of {self.part} over {self.drive}, {counted(len(self.inputs), 'pose')}"
         if unknown := int(np.isnan(self.points).any(axis=1).sum()):
             about += f", {unknown} of them not closed"
         if self.rests:

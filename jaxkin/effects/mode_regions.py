@@ -84,7 +84,7 @@ class ModeRegions(Result):
             if len(modes) > 1:
                 said = f"connected without a singular pose{self._limits}"
             most = f", up to {poses.max()} for the same inputs" if poses.max() > 1 else ""
-            lines.append(f"  {names}: {said}; {poses.sum()} poses{most}")
+            lines.append(f"  {names}: {said}; {counted(poses.sum(), 'pose')}{most}")
         if count > 1:
             lines.append("  a passage narrower than the grid, or beyond it, is not found")
         return "\n".join(lines)

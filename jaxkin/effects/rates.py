@@ -21,7 +21,7 @@ from jaxtyping import Array, Bool, Float
 
 from jaxkin._arguments import by_name, check_motion, numbers
 from jaxkin._guesses import Result
-from jaxkin._names import nearest
+from jaxkin._names import counted, nearest
 from jaxkin.effects.angle_locks import not_determined
 from jaxkin.effects.pose_axis import drive_axis, pose_names
 from jaxkin.effects.pose_plot import draw_lines, save_rows
@@ -101,7 +101,8 @@ class Rates(Result):
 
     def __str__(self) -> str:
         """Say the least and the greatest rate of each coordinate, and at which poses rates are not known."""
-        lines = [f"{NAMES[self.order]} over {len(self.motion)} poses, for the given ones of {', '.join(self.inputs)}"]
+        poses = counted(len(self.motion), "pose")
+        lines = [f"{NAMES[self.order]} over {poses}, for the given ones of {', '.join(self.inputs)}"]
         named = pose_names(self.motion)
         names, units, rows = self._rows()
         for name, unit, row in zip(names, units, rows, strict=True):
@@ -112,7 +113,7 @@ class Rates(Result):
                 said = f"{least} at all poses" if least == most and np.isfinite(row).all() else said
                 lines.append(f"  {name} [{unit}]: {said}")
         if unknown := int(np.isnan(rows).any(axis=0).sum()):
-            lines.append(f"  not known at {unknown} of {len(self.motion)} poses")
+            lines.append(f"  not known at {unknown} of {poses}")
         lines += [f"  {line}" for line in not_determined(self.motion, self.order)]
         return "\n".join(lines)
 

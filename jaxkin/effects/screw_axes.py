@@ -11,6 +11,7 @@ import numpy as np
 from jaxtyping import Array, Bool, Float
 
 from jaxkin._guesses import Result
+from jaxkin._names import counted
 from jaxkin.effects.rates import Rates
 from jaxkin.geometry.movements import is_length
 from jaxkin.joints.joint import Joint
@@ -47,7 +48,8 @@ class ScrewAxes(Result):
     def __str__(self) -> str:
         """Say the least and the greatest angular speed and pitch, and at which poses the part does not turn."""
         speed = np.asarray(self.angular_speed)
-        lines = [f"Screw axes of {self.part} over {len(speed)} poses, {np.isfinite(speed).sum()} of them with rates"]
+        poses = counted(len(speed), "pose")
+        lines = [f"Screw axes of {self.part} over {poses}, {np.isfinite(speed).sum()} of them with rates"]
         unit = self.unit or "length"
         for name, of, row in (("angular speed", "rad/time", speed), ("pitch", f"{unit}/rad", np.asarray(self.pitch))):
             if len(turning := np.flatnonzero(speed > 0)):

@@ -17,7 +17,7 @@ from jaxtyping import Float
 from jaxkin._arguments import check_known, check_motion, one_number
 from jaxkin._files import save_figure, whole
 from jaxkin._guesses import Result
-from jaxkin._names import nearest
+from jaxkin._names import counted, nearest
 from jaxkin.effects.pose_runs import PoseRun, off_between, placements, runs_of, sagitta
 from jaxkin.geometry.isosurface import zero_surface
 from jaxkin.geometry.part import Part
@@ -98,10 +98,10 @@ class SweptVolume(Result):
         low, high = (", ".join(f"{x:.5g}" for x in corner) for corner in self.box)
         own = f"{100 * abs(self.lost):.2g} % too {'small' if self.lost > 0 else 'large'}"
         left = (
-            f"; {self.left_out} poses that are not closed are left out, and the way past them" if self.left_out else ""
+            f"; {counted(self.left_out, 'pose')} left out as not closed, and the way past them" if self.left_out else ""
         )
         return (
-            f"Swept volume of {self.part} over {self.poses} poses{left}\n"
+            f"Swept volume of {self.part} over {counted(self.poses, 'pose')}{left}\n"
             f"  volume {self.volume:.6g}{f'{unit}^3' if unit else ''}, surface within {self.error:.3g}{unit}: at most "
             f"{self.volume_error:.2g}{f'{unit}^3' if unit else ''} off\n"
             f"  box ({low}) to ({high}){unit}\n"

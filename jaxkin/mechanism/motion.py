@@ -274,8 +274,9 @@ def tell(found: Tally, mechanism: Mechanism, inputs: Mapping[str, np.ndarray | A
     faces left."""
     from jaxkin.mechanism.lost_contact_report import lost_contact_report
 
-    lines = [f"Motion of {len(mechanism.parts)} parts over {found.counts.sum()} poses, driven by {', '.join(inputs)}"]
     counts = found.counts
+    poses = counted(counts.sum(), "pose")
+    lines = [f"Motion of {len(mechanism.parts)} parts over {poses}, driven by {', '.join(inputs)}"]
     lines += [f"  {counts[status]:>6}  {status.name}: {status.message}" for status in Status if counts[status]]
     lines += [f"  {found.intervals}"] if found.intervals else []
     driven = [coordinate(mechanism.linkage, name) for name in inputs]

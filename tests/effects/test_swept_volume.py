@@ -106,7 +106,7 @@ def test_nothing_is_swept_past_poses_that_are_not_closed():
     np.testing.assert_allclose(found.volume, (12 + 12 + 10) * 6 * 4, rtol=0.04)
     assert len(found.mesh.split()) == 3
     assert (found.poses, found.left_out) == (5, 2)
-    assert "over 5 poses; 2 poses that are not closed are left out, and the way past them" in str(found)
+    assert "over 5 poses; 2 poses left out as not closed, and the way past them" in str(found)
     np.testing.assert_allclose(found.box, [[-5, -3, -2], [85, 3, 2]], atol=0.25)  # half a step
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from jaxtyping import Array, Bool, Float
 
 from jaxkin._guesses import Result
+from jaxkin._names import counted
 from jaxkin.effects.forces.friction_of import undetermined_friction
 from jaxkin.effects.forces.undetermined import Undetermined, undetermined
 from jaxkin.effects.pose_axis import pose_names
@@ -64,14 +65,14 @@ class Friction(Result):
                 most = np.asarray(self.most[name])[rests]
                 known = f"up to {np.nanmax(most):.4g} N" if np.isfinite(most).any() else "of any size"
                 found.append(
-                    f"{name} does not slide in {rests.sum()} poses, first {np.argmax(rests)}: its friction is taken as "
-                    f"zero there, and may be {known} in any direction"
+                    f"{name} does not slide in {counted(rests.sum(), 'pose')}, first {np.argmax(rests)}: its friction "
+                    f"is taken as zero there, and may be {known} in any direction"
                 )
         locked = np.asarray(self.locked)
         if locked.any():
             found.append(
-                f"locks by friction in {locked.sum()} poses, first {np.argmax(locked)}: no drive forces were found "
-                "that move it as prescribed; drive another joint, or the other way round"
+                f"locks by friction in {counted(locked.sum(), 'pose')}, first {np.argmax(locked)}: no drive forces "
+                "were found that move it as prescribed; drive another joint, or the other way round"
             )
         return found + [f"friction rests on a reaction of least norm, {each}" for each in self.undetermined]
 

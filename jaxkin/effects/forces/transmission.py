@@ -14,7 +14,7 @@ from jaxtyping import Array, Bool, Float
 
 from jaxkin._arguments import check_motion
 from jaxkin._guesses import Result
-from jaxkin._names import listed, nearest
+from jaxkin._names import counted, listed, nearest
 from jaxkin.effects.forces.drive import drive_forces
 from jaxkin.effects.forces.given import joint_load
 from jaxkin.effects.forces.places import places
@@ -74,7 +74,9 @@ class Transmission(Result):
                 f"{np.nanmax(angle):.4g} deg at {at(np.nanargmax(angle))}"
             )
         if without := int((np.isnan(angle) & np.isfinite(ratio)).sum()):
-            lines.append(f"  no force goes through {self.joint} in {without} poses: no transmission angle there")
+            lines.append(
+                f"  no force goes through {self.joint} in {counted(without, 'pose')}: no transmission angle there"
+            )
         return "\n".join(lines)
 
     def plot(self, path: str | Path, times: Any = None) -> Path:

@@ -11,6 +11,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from jaxkin._arguments import by_name, check_mechanism, one_number, several, whole_number, yes_or_no
+from jaxkin._names import counted
 from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import coordinates
 from jaxkin.mechanism.inverse.aims import aims_of
@@ -65,11 +66,13 @@ class Inverse:
             )
         if (moving := reached + int(self.stationary[~self.reached].sum())) < poses:
             lines.append(f"  at {poses - moving} poses the error can still be less: give more iterations")
-        lines += [f"  {name} is at a limit at {np.sum(which)} poses" for name, which in self.at_limits.items()]
+        lines += [
+            f"  {name} is at a limit at {counted(np.sum(which), 'pose')}" for name, which in self.at_limits.items()
+        ]
         if (several := max((len(found) for found in self.solutions), default=0)) > 1:
             lines.append(f"  up to {several} solutions a pose")
         if (lost := poses - int(np.asarray(self.motion.on_branch).sum())) > 0:
-            lines.append(f"  the loops do not close at {lost} poses")
+            lines.append(f"  the loops do not close at {counted(lost, 'pose')}")
         return "\n".join(lines)
 
 
