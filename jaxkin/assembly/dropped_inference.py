@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 KEPT = (EvidenceKind.NEAREST, EvidenceKind.BOLT_PATTERN)
 """Inferences that are not dropped so that something moves: without the first their parts would be tied to nothing, and
 plates that are bolted together do not move."""
-DROPPED = "not inferred, since nothing could move with it"
+DROPPED = "left out, since nothing could move with it"
 """How the note begins that tells an inference which was dropped."""
 TOLD = "inferred beside exact contacts"
 """How the note begins that counts inferences."""
