@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from jaxkin.geometry.pose import Points, Vector, unit
+from jaxkin.geometry.pose import Points, Vector, cross, unit
 from jaxkin.geometry.surfaces import Cylinder, Plane, Sphere
 
 CROSSING = 0.03
@@ -137,12 +137,12 @@ def closest_points(p1: Vector, d1: Vector, p2: Vector, d2: Vector) -> tuple[Vect
 
     A line is given by a point and a unit vector.
     """
-    normal = np.cross(d1, d2)
+    normal = cross(d1, d2)
     square = float(normal @ normal)
     if square < np.sin(CROSSING) ** 2:
         return None
     between = p2 - p1
-    return p1 + (np.cross(between, d2) @ normal / square) * d1, p2 + (np.cross(between, d1) @ normal / square) * d2
+    return p1 + (cross(between, d2) @ normal / square) * d1, p2 + (cross(between, d1) @ normal / square) * d2
 
 
 def common_axis(axis1: Vector, axis2: Vector) -> tuple[Vector, float]:
@@ -156,7 +156,7 @@ def common_axis(axis1: Vector, axis2: Vector) -> tuple[Vector, float]:
 
 def angle(direction1: Vector, direction2: Vector) -> float:
     """Compute the angle between two unit vectors, 0 to pi, accurate for small angles too."""
-    return float(np.arctan2(np.linalg.norm(np.cross(direction1, direction2)), direction1 @ direction2))
+    return float(np.arctan2(np.linalg.norm(cross(direction1, direction2)), direction1 @ direction2))
 
 
 def distance(point1: Vector, point2: Vector) -> float:

@@ -12,7 +12,7 @@ from jaxkin.assembly.inference.known import BodyPair, Known
 from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.geometry.outline import widest_gap
 from jaxkin.geometry.part import Face, Part
-from jaxkin.geometry.pose import Vector
+from jaxkin.geometry.pose import Vector, cross
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
@@ -137,7 +137,7 @@ def _runs(wheel: _Wheel, rail: Part) -> list[_Run]:
         plane = face.surface
         if not isinstance(plane, Plane):
             continue
-        way = np.cross(wheel.axis, plane.normal)
+        way = cross(wheel.axis, plane.normal)
         if np.linalg.norm(way) < MIN_SLANT:
             continue
         heights = (treads - plane.point) @ plane.normal

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
+from jaxkin._memory import once_for_each
 from jaxkin.assembly.inference.bores import Bore
 from jaxkin.geometry.part import Part
 
@@ -33,23 +36,37 @@ def depth_inside(pin: Bore, other: Part) -> float:
     if not near.any():
         return 0.0
     within = np.zeros(near.shape, bool)
-    within[near] = inside(points[near], other.triangles)
+    within[near] = inside(points[near], other)
     return float(np.sum(within.all(axis=1)) * 2 * pin.half / STATIONS)
 
 
-def inside(
-    points: Float[np.ndarray, "points 3"], triangles: Float[np.ndarray, "triangles 3 3"]
-) -> Bool[np.ndarray, " points"]:
-    """Tell whether points lie in a closed surface: most of three rays from each go through it an odd number of
-    times."""
+def inside(points: Float[np.ndarray, "points 3"], part: Part) -> Bool[np.ndarray, " points"]:
+    """Tell whether points lie in a part: most of three rays from each go through its surface an odd number of times."""
     votes = np.zeros(len(points), int)
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2
+    apart = _spheres(part).middles - middle
+    reach = _spheres(part).radii + np.linalg.norm(points - middle, axis=1).max()
     for ray in _RAYS:
         turn = np.linalg.qr(np.column_stack([ray, np.eye(3)[:, :2]]))[0]
-        seen, corners = points @ turn, triangles @ turn  # the first coordinate is along the ray
+        away = np.sum(apart**2, axis=1) - (apart @ turn[:, 0]) ** 2
+        seen, corners = points @ turn, part.triangles[away <= reach**2] @ turn  # the first coordinate is along the ray
         flat, at = corners[:, :, 1:], seen[:, 1:]
         met = np.all((flat.max(axis=1) >= at.min(axis=0)) & (flat.min(axis=1) <= at.max(axis=0)), axis=1)
         votes += _crossed(seen, corners[met]) % 2
     return votes >= 2
+
+
+class _Spheres(NamedTuple):
+    """A sphere around each triangle of a part: what misses it misses the triangle."""
+
+    middles: Float[np.ndarray, "triangles 3"]
+    radii: Float[np.ndarray, " triangles"]
+
+
+@once_for_each
+def _spheres(part: Part) -> _Spheres:
+    middles = part.triangles.mean(axis=1)
+    return _Spheres(middles, np.linalg.norm(part.triangles - middles[:, None], axis=2).max(axis=1))
 
 
 def _crossed(

@@ -33,7 +33,7 @@ def sunk_in_siblings(known: Known) -> list[Inference]:
     for part in (known.solids[name] for name in known.names if name not in tied):
         siblings = [each for each in known.measured.beside(part) if known.group[each.name] == known.group[part.name]]
         corners = part.outermost[:: -(-len(part.outermost) // SAMPLED)]
-        shares = [(float(inside(corners, each.triangles).mean()), each.name) for each in siblings]
+        shares = [(float(inside(corners, each).mean()), each.name) for each in siblings]
         share, host = max(shares, default=(0.0, ""))
         if share > MIN_SUNK and known.group[part.name] != ():
             text = f"{share:.0%} of {part.name!r} is drawn into {host!r}, which is in its sub-assembly"

@@ -14,7 +14,7 @@ from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.contacts.contact import Contact
 from jaxkin.contacts.overlap import Flat, flat, overlap
 from jaxkin.geometry.part import Face, Part
-from jaxkin.geometry.pose import Vector, perpendicular, unit
+from jaxkin.geometry.pose import Vector, cross, perpendicular, unit
 from jaxkin.geometry.surfaces import Plane
 
 MAX_SIDE_PLAY = 0.06
@@ -138,33 +138,58 @@ def _opposed_to(one: Part) -> WeakKeyDictionary[Part, list[_Opposed]]:
     return WeakKeyDictionary()
 
 
-def _planes(part: Part) -> list[tuple[Plane, Face]]:
-    """List the plane faces of a part."""
-    return [(face.surface, face) for face in part.faces if isinstance(face.surface, Plane)]
+class _Planes(NamedTuple):
+    """The plane faces of a part."""
+
+    planes: list[Plane]
+    faces: list[Face]
+    normals: Float[np.ndarray, "faces 3"]
+    axes: Float[np.ndarray, "faces 2 3"]
+    """Directions in each plane, the first along a side of the face."""
+    outlines: list[_Outline]
+    """Each face along its axes, from the point of its plane."""
+    middles: Float[np.ndarray, "faces 3"]
+    halves: Float[np.ndarray, "faces 3"]
+    """Of the box of each face: its middle, and half its sides."""
 
 
-def _opposed(ones: Sequence[tuple[Plane, Face]], others: Sequence[tuple[Plane, Face]]) -> list[_Opposed]:
+@once_for_each
+def _planes(part: Part) -> _Planes:
+    """Collect the plane faces of a part."""
+    planes, faces, axes, outlines = [], [], [], []
+    for face in part.faces:
+        if isinstance(plane := face.surface, Plane):
+            x = _along_a_side(plane, face)
+            axes.append((x, cross(plane.normal, x)))
+            outlines.append(_Outline.of(flat(face.triangles, plane.point, *axes[-1])))
+            planes.append(plane)
+            faces.append(face)
+    boxes = np.array([face.box for face in faces]).reshape(-1, 2, 3)
+    normals = np.array([plane.normal for plane in planes]).reshape(-1, 3)
+    axes = np.array(axes).reshape(-1, 2, 3)
+    return _Planes(planes, faces, normals, axes, outlines, boxes.mean(axis=1), np.ptp(boxes, axis=1) / 2)
+
+
+def _opposed(ones: _Planes, others: _Planes) -> list[_Opposed]:
     """Find the plane faces that look at each other.
 
     Faces that are only beside each other along the normal of the first do not.
     """
-    if not ones or not others:
-        return []
-    against, found = np.array([plane.normal for plane, _ in others]), []
-    for plane, a in ones:
-        opposite = np.flatnonzero(_are_opposite(plane.normal[None], against)[0]).tolist()
-        if not opposite:
-            continue
-        x = _along_a_side(plane, a)
-        across = plane.point, x, np.cross(plane.normal, x)
-        own = _Outline.of(flat(a.triangles, *across))
-        for other, b in (others[k] for k in opposite):
-            gap = float((other.point - plane.point) @ plane.normal)
+    found = []
+    opposite = _are_opposite(ones.normals, others.normals)
+    for k in np.flatnonzero(opposite.any(axis=1)).tolist():
+        plane, axes, own = ones.planes[k], ones.axes[k], ones.outlines[k]
+        # most share nothing, which their boxes tell
+        middles, reaches = (others.middles - plane.point) @ axes.T, others.halves @ np.abs(axes).T
+        beside = np.all((middles - reaches < own.high) & (middles + reaches > own.low), axis=1)
+        for j in np.flatnonzero(opposite[k] & beside).tolist():
+            gap = float((others.planes[j].point - plane.point) @ plane.normal)
             if gap < -TOUCHING * own.longest:
                 continue
-            width = own.shared_width(_Outline.of(flat(b.triangles, *across)))
+            face = others.faces[j]
+            width = own.shared_width(_Outline.of(flat(face.triangles, plane.point, *axes)))
             if width is not None and gap >= -TOUCHING * width:
-                found.append((plane, a, b, max(gap, 0.0)))
+                found.append((plane, ones.faces[k], face, max(gap, 0.0)))
     return found
 
 
