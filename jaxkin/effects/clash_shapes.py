@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
+from jaxkin._memory import once_for_each
 from jaxkin.contacts.whole_face import is_whole
 from jaxkin.geometry.congruent import displacement
 from jaxkin.geometry.displaced import Displaced
@@ -108,7 +109,7 @@ def clash_parts(parts: Sequence[Part]) -> tuple[ClashPart, ...]:
         places = ((shape, displacement(_corners(shape.part), corners, length)) for shape in known)
         shape, place = next(((shape, place) for shape, place in places if place is not None), (None, np.eye(4)))
         if shape is None:
-            shape, count = _shape_of(part, count), count + 1
+            shape, count = ClashShape(part, count, *_mesh(part)), count + 1
             known.append(shape)
         found.append(ClashPart(part, shape, place))
     return tuple(found)
@@ -119,8 +120,10 @@ def _corners(part: Part) -> Points:
     return np.concatenate([part.triangles, *(face.triangles for face in part.faces)]).reshape(-1, 3).astype(float)
 
 
-def _shape_of(part: Part, number: int) -> ClashShape:
-    """Prepare the mesh of a part."""
+@once_for_each
+def _mesh(part: Part) -> tuple[Float[np.ndarray, "3 3"], TriangleTree, Int[np.ndarray, " triangles"]]:
+    """Prepare the mesh of a part, for all searches of its mechanism: its axes, its triangles along these, and the
+    number of the face of each triangle."""
     from scipy.spatial import KDTree
 
     axes = aligned_axes(part.triangles)
@@ -133,7 +136,7 @@ def _shape_of(part: Part, number: int) -> ClashShape:
         known = np.isfinite(distance)
         labels[known] = owners[np.asarray(nearest)[known]]
     triangles = np.ascontiguousarray(part.triangles, float) @ axes.T
-    return ClashShape(part, number, axes, triangle_tree(triangles, labels), labels)
+    return axes, triangle_tree(triangles, labels), labels
 
 
 def displaced(one: ClashPart, other: ClashPart, of_one: np.ndarray, of_other: np.ndarray) -> Displaced:
