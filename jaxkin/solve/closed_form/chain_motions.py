@@ -8,9 +8,9 @@ from typing import NamedTuple
 import numpy as np
 
 from jaxkin.solve.closed_form.assembled_axes import AssembledAxes
-from jaxkin.solve.closed_form.complex_numbers import Complex, scale
+from jaxkin.solve.closed_form.complex_numbers import Complex, add, scale, subtract, times
 from jaxkin.solve.closed_form.coordinate import Coordinate, FormulaCoordinates
-from jaxkin.solve.closed_form.planar_dyad import PlanarDisplacement, about, compose
+from jaxkin.solve.closed_form.planar_dyad import PlanarLink
 from jaxkin.solve.closed_form.vectors import Vector, rotate
 from jaxkin.solve.system.chain_tables import chain_tables
 from jaxkin.solve.system.loop_system import LoopSystem
@@ -20,6 +20,10 @@ def moving_rows(system: LoopSystem, chain: int, begin: int = 0, end: int | None 
     """List the rows of a chain that move, from `begin` to before `end`, by default all."""
     column = chain_tables(system).column[:, chain]
     return [row for row in range(begin, len(column) if end is None else end) if column[row] < system.columns]
+
+
+OPENING = -1
+"""Stands, among the rows of a section, for what the chain leaves open in the assembled pose, at its end."""
 
 
 class ChainSection(NamedTuple):
@@ -42,27 +46,35 @@ def planar_place(system: LoopSystem, axes: AssembledAxes, row: int, chain: int) 
     return Complex(x, y)
 
 
-def planar_product(section: ChainSection, x: FormulaCoordinates) -> PlanarDisplacement:
-    """Multiply the motions of a section of a chain at the coordinates `x`."""
+def planar_link(section: ChainSection, x: FormulaCoordinates, begin: Complex, end: Complex) -> PlanarLink:
+    """Compute the turn of the motions of a section of a chain at the coordinates `x`, and the vector from the point
+    `begin` to where they take the point `end`; both are points of the assembled pose.
+
+    What is the same in all poses is added up by itself: a motion costs one product of complex numbers for the vector.
+    """
     system, axes, chain, rows = section
     table = chain_tables(system)
-    zero, one = np.zeros(1), np.ones(1)
-    product = None
-    for row in rows:
-        place = planar_place(system, axes, row, chain)
-        q = _known(x, int(table.column[row, chain])).times(axes.sense[row, chain])
-        if table.turn[row, chain]:
-            moved = about(place, q.turn)
+    turn: Complex | None = None
+    moving: Complex | None = None
+    fixed = end  # the point is the sum of `moving` and `fixed`
+    for row in reversed(rows):
+        if row == OPENING:
+            (cos, _), (sin, _) = axes.open_turn[chain]
+            rotation = Complex(cos, sin)
+            fixed = add(times(rotation, fixed), Complex(*axes.open_shift[chain]))
+            moving = None if moving is None else times(rotation, moving)
         else:
-            moved = PlanarDisplacement(Complex(one, zero), scale(q.value, place))
-        product = moved if product is None else compose(product, moved)
-    return product or PlanarDisplacement(Complex(one, zero), Complex(zero, zero))
-
-
-def planar_rest(axes: AssembledAxes, chain: int) -> PlanarDisplacement:
-    """Compute what a chain leaves open in the assembled pose."""
-    (cos, _), (sin, _) = axes.open_turn[chain]
-    return PlanarDisplacement(Complex(cos, sin), Complex(*axes.open_shift[chain]))
+            place = planar_place(system, axes, row, chain)
+            q = _known(x, int(table.column[row, chain])).times(axes.sense[row, chain])
+            if not table.turn[row, chain]:
+                slide = scale(q.value, place)
+                moving = slide if moving is None else add(slide, moving)
+                continue
+            rotation, lever = q.turn, subtract(fixed, place)
+            moving, fixed = times(rotation, lever if moving is None else add(moving, lever)), place
+        turn = rotation if turn is None else times(rotation, turn)
+    rest = subtract(fixed, begin)
+    return PlanarLink(turn or Complex(np.ones(1), np.zeros(1)), rest if moving is None else add(moving, rest))
 
 
 def displace(

@@ -81,5 +81,5 @@ def unit(number: Complex) -> Complex:
     """Divide by the absolute value: the rotation in this direction; 1 with zero derivative for the number zero."""
     xp, size = namespace(number.real, number.imag), square(number)
     positive = size > 0
-    size = xp.sqrt(xp.where(positive, size, 1.0))
-    return Complex(xp.where(positive, number.real / size, 1.0), xp.where(positive, number.imag / size, 0.0))
+    inverse = 1.0 / xp.sqrt(xp.where(positive, size, 1.0))
+    return Complex(xp.where(positive, number.real * inverse, 1.0), number.imag * inverse)

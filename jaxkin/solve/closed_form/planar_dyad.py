@@ -15,6 +15,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
+import numpy as np
+
 from jaxkin.solve.closed_form.arithmetic import Number, namespace, ratio, root
 from jaxkin.solve.closed_form.complex_numbers import (
     Complex,
@@ -23,15 +25,14 @@ from jaxkin.solve.closed_form.complex_numbers import (
     conj,
     cross,
     square,
-    subtract,
     times,
     unit,
 )
 from jaxkin.solve.closed_form.equations import solve_slide
 
 
-class PlanarDisplacement(NamedTuple):
-    """A displacement of the plane: the point z goes to `turn` z + `shift`."""
+class PlanarLink(NamedTuple):
+    """A displacement of the plane: the first end of the link to the second, displaced, is `shift`."""
 
     turn: Complex
     """Of absolute value 1."""
@@ -58,38 +59,38 @@ class Dyad(NamedTuple):
 
 
 class _Link(NamedTuple):
-    """What lies between an unknown and the next one."""
+    """A link behind an unknown."""
 
     turn: Complex
     shift: Complex
     along: Complex
-    """Direction of the slide before it."""
+    """Direction of the unknown, if it is a slide."""
 
 
-def compose(first: PlanarDisplacement, then: PlanarDisplacement) -> PlanarDisplacement:
-    """Multiply two displacements."""
-    return PlanarDisplacement(times(first.turn, then.turn), add(first.shift, times(first.turn, then.shift)))
+def link_ends(kinds: str, places: Sequence[Complex]) -> list[tuple[Complex, Complex]]:
+    """Find the points between which the link behind each unknown is counted: centres of turns, and for slides 0.
+
+    All are points of the assembled pose. Arguments are those of `planar_dyad`.
+    """
+    origin = Complex(np.zeros(1), np.zeros(1))
+    ends = [place if kind == "R" else origin for kind, place in zip(kinds, places, strict=True)]
+    return list(zip(ends, ends[1:] + ends[:1], strict=True))
 
 
-def about(centre: Complex, turn: Complex) -> PlanarDisplacement:
-    """Make the turn about a point."""
-    return PlanarDisplacement(turn, subtract(centre, times(turn, centre)))
-
-
-def planar_dyad(kinds: str, places: Sequence[Complex], between: Sequence[PlanarDisplacement], sign: Number) -> Dyad:
+def planar_dyad(kinds: str, places: Sequence[Complex], links: Sequence[PlanarLink], sign: Number) -> Dyad:
     """Solve U_1 K_1 U_2 K_2 U_3 K_3 = 1 for the coordinates of the three `U`.
 
     `kinds` are three letters in order of travel, R for a turn and P for a slide, not PPP. `places` are the centre of
-    each turn and the unit direction of each slide in the assembled pose, `between` the displacements `K`, which are
-    known. `sign` is that of `signed_root` in the assembled pose.
+    each turn and the unit direction of each slide in the assembled pose, `links` are the `K`, which are known, each
+    between its `link_ends`. `sign` is that of `signed_root` in the assembled pose.
     """
     first = _first(kinds)
     kinds = kinds[first:] + kinds[:first]
-    found, discriminant = _FORMULAS[kinds](_links(kinds, first, places, between), sign)
+    found, discriminant = _FORMULAS[kinds](_begun_at(first, places, links), sign)
     return Dyad((found[-first % 3], found[(1 - first) % 3], found[(2 - first) % 3]), discriminant)
 
 
-def signed_root(kinds: str, places: Sequence[Complex], between: Sequence[PlanarDisplacement]) -> Number:
+def signed_root(kinds: str, places: Sequence[Complex], links: Sequence[PlanarLink]) -> Number:
     """Compute the root of the discriminant, with the sign of the branch, in a pose in which all three unknowns are 0.
 
     Arguments are those of `planar_dyad`. The root is the sine of the angle between the links of RRR, the cosine of the
@@ -97,7 +98,7 @@ def signed_root(kinds: str, places: Sequence[Complex], between: Sequence[PlanarD
     """
     first = _first(kinds)
     kinds = kinds[first:] + kinds[:first]
-    one, two, three = _links(kinds, first, places, between)
+    one, two, three = _begun_at(first, places, links)
     if kinds == "RRR":
         lengths = root(square(one.shift) * square(two.shift))
         return ratio(times(conj(one.shift), one.turn, two.shift).imag, lengths)
@@ -111,19 +112,10 @@ def _first(kinds: str) -> int:
     return next(k for k in range(3) if kinds[k:] + kinds[:k] in _FORMULAS)
 
 
-def _links(
-    kinds: str, first: int, places: Sequence[Complex], between: Sequence[PlanarDisplacement]
-) -> tuple[_Link, _Link, _Link]:
-    """List the links behind the unknowns, begun at the unknown `first`; each from centre to centre, a slide's at 0."""
-    links: list[_Link] = []
-    for k, (here, then) in enumerate(zip(kinds, kinds[1:] + kinds[:1], strict=True)):
-        place, turn, shift = places[(first + k) % 3], *between[(first + k) % 3]
-        if then == "R":
-            shift = add(shift, times(turn, places[(first + k + 1) % 3]))
-        if here == "R":
-            shift = subtract(shift, place)
-        links.append(_Link(turn, shift, place))
-    return links[0], links[1], links[2]
+def _begun_at(first: int, places: Sequence[Complex], links: Sequence[PlanarLink]) -> tuple[_Link, _Link, _Link]:
+    """List the links behind the unknowns, from the unknown `first` on, each with the place of its unknown."""
+    one, two, three = (_Link(*links[k % 3], places[k % 3]) for k in range(first, first + 3))
+    return one, two, three
 
 
 def _triangle(links: tuple[_Link, _Link, _Link], sign: Number) -> tuple[Three, Number]:
@@ -143,8 +135,9 @@ def _triangle(links: tuple[_Link, _Link, _Link], sign: Number) -> tuple[Three, N
             Complex(first + real, -w.imag),
         )
     )
-    e_2 = unit(times(w, one.shift, conj(two.shift), conj(one.turn)))
-    e_3 = conj(times(e_1, e_2, one.turn, two.turn, three.turn))
+    # links that are known of all poses are multiplied first
+    e_2 = unit(times(w, times(one.shift, conj(two.shift), conj(one.turn))))
+    e_3 = conj(times(e_1, e_2, times(one.turn, two.turn), three.turn))
     return (e_1, e_2, e_3), ratio(product, sides)
 
 

@@ -14,12 +14,14 @@ from jaxkin.solve.closed_form import planar_dyad, rod, spherical_triangle
 from jaxkin.solve.closed_form.arithmetic import Number, namespace
 from jaxkin.solve.closed_form.assembled_axes import AssembledAxes
 from jaxkin.solve.closed_form.chain_motions import (
+    OPENING,
     ChainSection,
     displace,
+    moving_rows,
+    planar_link,
     planar_place,
-    planar_product,
-    planar_rest,
 )
+from jaxkin.solve.closed_form.complex_numbers import Complex
 from jaxkin.solve.closed_form.coordinate import REST, Coordinate, FormulaCoordinates, found, given
 from jaxkin.solve.closed_form.group_formulas import GroupFormula, group_formulas
 from jaxkin.solve.closed_form.vectors import dot
@@ -126,15 +128,18 @@ def _signed_root(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula,
 
 
 def _planar(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, x: FormulaCoordinates):
-    """Find the places and known displacements of a dyad: the arguments of `planar_dyad`."""
+    """Find the places and known links of a dyad: the arguments of `planar_dyad`."""
     chain, (one, two, three) = formula.chain, formula.rows
     places = [planar_place(system, axes, row, chain) for row in formula.rows]
-
-    def product(begin: int, end: int | None) -> planar_dyad.PlanarDisplacement:
-        return planar_product(ChainSection.of(system, axes, chain, begin, end), x)
-
-    behind = planar_dyad.compose(product(three + 1, None), planar_rest(axes, chain))
-    return places, [product(one + 1, two), product(two + 1, three), planar_dyad.compose(behind, product(0, one))]
+    rows = [
+        moving_rows(system, chain, one + 1, two),
+        moving_rows(system, chain, two + 1, three),
+        [*moving_rows(system, chain, three + 1), OPENING, *moving_rows(system, chain, 0, one)],
+    ]
+    return places, [
+        planar_link(ChainSection(system, axes, chain, between), x, *ends)
+        for between, ends in zip(rows, planar_dyad.link_ends(formula.letters, places), strict=True)
+    ]
 
 
 def _spherical(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, x: FormulaCoordinates):
@@ -191,10 +196,10 @@ def residual_norm(
     """
     xp = namespace(*jax.tree.leaves(rows), axes.centre)
     if system.planar:
-        square = axes.off_plane
+        square, origin = axes.off_plane, Complex(np.zeros(1), np.zeros(1))
         for chain in range(len(system.loops)):
-            product = planar_product(ChainSection.of(system, axes, chain), rows)
-            turn, shift = planar_dyad.compose(product, planar_rest(axes, chain))
+            whole = ChainSection(system, axes, chain, [*moving_rows(system, chain), OPENING])
+            turn, shift = planar_link(whole, rows, origin, origin)
             # a turn changes four of the nine entries of a rotation matrix
             square = square + 2 * ((turn.real - 1) ** 2 + turn.imag**2) + shift.real**2 + shift.imag**2
         return xp.sqrt(square)

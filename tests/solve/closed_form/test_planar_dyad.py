@@ -6,7 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from jaxkin.solve.closed_form.planar_dyad import Complex, PlanarDisplacement, planar_dyad, signed_root
+from jaxkin.solve.closed_form.planar_dyad import Complex, PlanarLink, link_ends, planar_dyad, signed_root
 
 KINDS = ["RRR", "RRP", "RPR", "PRR", "RPP", "PRP", "PPR"]
 EPS = np.finfo(float).eps
@@ -30,8 +30,15 @@ def as_complex(vector):
     return Complex(jnp.asarray(vector[0]), jnp.asarray(vector[1]))
 
 
-def as_displacement(matrix):
-    return PlanarDisplacement(as_complex(matrix[:2, 0]), as_complex(matrix[:2, 2]))
+def as_link(matrix, begin, end):
+    """Turn of a displacement, and the vector from a point to where it takes another one."""
+    begin, end = (jnp.array([jnp.ravel(part)[0] for part in point]) for point in (begin, end))
+    return PlanarLink(as_complex(matrix[:2, 0]), as_complex(matrix[:2, :2] @ end + matrix[:2, 2] - begin))
+
+
+def as_links(kinds, places, between):
+    ends = link_ends(kinds, places)
+    return [as_link(matrix, *each) for matrix, each in zip(between, ends, strict=True)]
 
 
 def drawn(kinds, seed):
@@ -45,11 +52,13 @@ def drawn(kinds, seed):
 
 
 def solved(kinds, places, between, sign):
-    return solve(kinds, [as_complex(place) for place in places], [as_displacement(k) for k in between], sign)
+    places = [as_complex(place) for place in places]
+    return solve(kinds, places, as_links(kinds, places, between), sign)
 
 
 def sign_of(kinds, places, between):
-    return signed_root(kinds, [as_complex(place) for place in places], [as_displacement(k) for k in between])
+    places = [as_complex(place) for place in places]
+    return signed_root(kinds, places, as_links(kinds, places, between))
 
 
 @pytest.mark.long
@@ -145,9 +154,9 @@ def test_out_of_reach_the_discriminant_is_negative_and_nothing_is_nan(kinds):
     far = jnp.array([30.0, -40.0])
 
     def coordinates(shift):
-        between = [as_displacement(k) for k in still[:2]]
-        between.append(PlanarDisplacement(as_complex((1.0, 0.0)), as_complex(shift)))
-        found = planar_dyad(kinds, [as_complex(place) for place in places], between, 1.0)
+        ends = [as_complex(place) for place in places]
+        moved = [*still[:2], jnp.eye(3).at[:2, 2].set(shift)]
+        found = planar_dyad(kinds, ends, as_links(kinds, ends, moved), 1.0)
         return jnp.stack(found.coordinates), found.discriminant
 
     (slopes, _), found = jax.jacfwd(coordinates)(far), coordinates(far)
