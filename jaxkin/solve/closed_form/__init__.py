@@ -11,7 +11,7 @@
 | `rod` | a rod between two balls, whose other joints are known but for one | one angle or displacement |
 
 `group_formulas` tells which formula a group of loops has; `solve_groups` evaluates those of all groups of a system, one
-after another, with the axes of `assembled_axes` and the products of `chain_motions`. `range_by_formula` finds the poses
+after another, with the axes of `assembled_axes` and the links of `chain_motions`. `range_by_formula` finds the poses
 of a range, and their statuses by the proof of `branch_certificate` along the nodes of `input_line`;
 `formula_displacements` and `known_poses_by_formula` give displacements with derivatives.
 

@@ -15,15 +15,14 @@ from jaxkin.solve.closed_form.vectors import Vector, rotate
 from jaxkin.solve.system.chain_tables import chain_tables
 from jaxkin.solve.system.loop_system import LoopSystem
 
+OPENING = -1
+"""Stands for what a chain leaves open in the assembled pose, at its end, among the rows of a section in the plane."""
+
 
 def moving_rows(system: LoopSystem, chain: int, begin: int = 0, end: int | None = None) -> list[int]:
     """List the rows of a chain that move, from `begin` to before `end`, by default all."""
     column = chain_tables(system).column[:, chain]
     return [row for row in range(begin, len(column) if end is None else end) if column[row] < system.columns]
-
-
-OPENING = -1
-"""Stands, among the rows of a section, for what the chain leaves open in the assembled pose, at its end."""
 
 
 class ChainSection(NamedTuple):
@@ -50,7 +49,7 @@ def planar_link(section: ChainSection, x: FormulaCoordinates, begin: Complex, en
     """Compute the turn of the motions of a section of a chain at the coordinates `x`, and the vector from the point
     `begin` to where they take the point `end`; both are points of the assembled pose.
 
-    What is the same in all poses is added up by itself: a motion costs one product of complex numbers for the vector.
+    What is the same in all poses is added up by itself: the vector costs one product of complex numbers a turn.
     """
     system, axes, chain, rows = section
     table = chain_tables(system)
