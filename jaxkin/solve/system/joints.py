@@ -63,5 +63,6 @@ def inverse_poses(poses: Float[Array | np.ndarray, "*entries 4 4"], xp: Any = jn
     gives all of them a leading axis of one.
     """
     turned = xp.swapaxes(poses[..., :3, :3], -1, -2)
-    moved = -sum(poses[..., row, :3] * poses[..., row, 3:] for row in range(3))
+    x, y, z = (poses[..., row, :3] * poses[..., row, 3:] for row in range(3))
+    moved = -(x + y + z)
     return xp.concatenate([xp.concatenate([turned, moved[..., None]], axis=-1), poses[..., 3:, :]], axis=-2)
