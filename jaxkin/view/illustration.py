@@ -70,26 +70,36 @@ def draw(canvas: Canvas, parts: Sequence[Float[np.ndarray, "_ 3 3"]], colors: Se
     light = 1 + CONTRAST * (normal @ LIGHT - LIGHT[2])
     color = np.clip(np.array([*colors, PAPER], np.float32)[owners] * light[:, None], 0, 1)
     outline, crease = _edges(raster, owners, normal)
-    return Layer(raster.triangle >= 0, raster.depth, color[raster.triangle], _grown(outline), crease)
+    return Layer(raster.triangle >= 0, raster.depth, color.take(raster.triangle, axis=0), _grown(outline), crease)
 
 
-def compose(fixed: Layer, moving: Layer, ghost: Layer) -> UInt8[np.ndarray, "height width 3"]:
-    """Draw the picture: fixed parts hatched in grey, moving parts, and the outlines of a ghost behind these.
-
-    What a fixed part hides of a moving one shows through it, so that a housing does not hide the mechanism.
-    """
-    from PIL import Image
-
+def backdrop(fixed: Layer, ghost: Layer) -> Float[np.ndarray, "height width 3"]:
+    """Draw what is behind moving parts at all poses: fixed parts hatched in grey, and the outlines of a ghost."""
     image = fixed.color.copy()
     rows, columns = np.arange(image.shape[0])[:, None], np.arange(image.shape[1])
     image[fixed.present & ((rows + columns) % (HATCH[0] * SUPERSAMPLING) < HATCH[1] * SUPERSAMPLING)] *= HATCHED
     _ink(image, fixed.crease, FAINT_INK, 0.8)
     _ink(image, fixed.outline, FAINT_INK, 1.0)
     _ink(image, ghost.outline, INK, 0.22)
+    return image
+
+
+def compose(
+    behind_all: Float[np.ndarray, "height width 3"], fixed: Layer, moving: Layer
+) -> UInt8[np.ndarray, "height width 3"]:
+    """Draw moving parts over a `backdrop` of fixed ones.
+
+    What a fixed part hides of a moving one shows through it, so that a housing does not hide the mechanism.
+    """
+    from PIL import Image
+
+    image = behind_all.copy()
     front = moving.present & (moving.depth >= fixed.depth)
     behind = moving.present & ~front
-    image[front] = moving.color[front]
-    image[behind] = 0.7 * image[behind] + 0.3 * moving.color[behind]
+    (at,), (under,) = (np.nonzero(each.ravel()) for each in (front, behind))
+    pixels, colors = image.reshape(-1, 3), moving.color.reshape(-1, 3)
+    pixels[at] = colors[at]
+    pixels[under] = 0.7 * pixels[under] + 0.3 * colors[under]
     image *= 1 - _shadow(np.where(front, moving.depth, fixed.depth))[..., None]
     covered = _grown(_grown(behind)) & ~_grown(_grown(front))
     _ink(image, moving.crease & front, INK, 0.45)
@@ -131,7 +141,8 @@ def _grown(mask: Bool[np.ndarray, "height width"]) -> Bool[np.ndarray, "height w
 
 def _ink(image: Float[np.ndarray, "height width 3"], where: np.ndarray, ink: Sequence[float], strength: float) -> None:
     """Blend an ink into the picture, in place."""
-    image[where] = (1 - strength) * image[where] + strength * np.asarray(ink, np.float32)
+    pixels, (at,) = image.reshape(-1, 3), np.nonzero(where.ravel())
+    pixels[at] = (1 - strength) * pixels[at] + strength * np.asarray(ink, np.float32)
 
 
 def _shadow(depth: Float[np.ndarray, "height width"]) -> Float[np.ndarray, "height width"]:
@@ -144,4 +155,5 @@ def _shadow(depth: Float[np.ndarray, "height width"]) -> Float[np.ndarray, "heig
     weight = gaussian_filter(solid.astype(np.float32), SHADOW_REACH)
     around = gaussian_filter(np.where(solid, coarse, 0), SHADOW_REACH) / np.maximum(weight, 1e-6)
     deeper = np.where(solid, np.maximum(around - np.where(solid, coarse, 0), 0), 0)
-    return np.kron(SHADOW * (1 - np.exp(-deeper / SHADOW_REACH)), np.ones((SUPERSAMPLING, SUPERSAMPLING), np.float32))
+    darker = (SHADOW * (1 - np.exp(-deeper / SHADOW_REACH))).astype(np.float32)
+    return darker.repeat(SUPERSAMPLING, axis=0).repeat(SUPERSAMPLING, axis=1)

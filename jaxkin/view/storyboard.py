@@ -10,7 +10,7 @@ import numpy as np
 
 from jaxkin._files import text_width
 from jaxkin.view.drawing import body_label
-from jaxkin.view.illustration import FAINT_INK, INK, Canvas, Layer, compose, draw
+from jaxkin.view.illustration import FAINT_INK, INK, Canvas, Layer, backdrop, compose, draw
 from jaxkin.view.labels import Input, headline, inputs, title, values
 from jaxkin.view.lost_marks import WARNING, told
 from jaxkin.view.scene import Scene, make_scene
@@ -132,7 +132,8 @@ def _layer(scene: Scene, canvas: Canvas, fixed: bool, pose: int | None) -> Layer
 def _panels(sheet: Sheet, scene: Scene, entries: tuple[Input, ...], shown: list[int]) -> None:
     """Draw the mechanism at each pose; if there is none to show, where it was assembled."""
     canvas = sheet.canvas
-    fixed, ghost = (_layer(scene, canvas, still, None) for still in (True, False))
+    fixed = _layer(scene, canvas, True, None)
+    behind = backdrop(fixed, _layer(scene, canvas, False, None))
     for index, pose in enumerate(shown or [None]):
         left, top = sheet.place(index)
         warning = "" if pose is None else fitted(told(scene.lost, pose), canvas.width / 2, 9, "bold")
@@ -143,7 +144,7 @@ def _panels(sheet: Sheet, scene: Scene, entries: tuple[Input, ...], shown: list[
             caption = values(entries, pose)
         sheet.write((left, top + 14), fitted(caption, room, 10, "bold"), 10, color, weight="bold")
         moving = draw(canvas, [], []) if pose is None else _layer(scene, canvas, False, pose)
-        image = compose(fixed, moving, ghost)
+        image = compose(behind, fixed, moving)
         sheet.figure.figimage(image, xo=left, yo=sheet.height - top - CAPTION - canvas.height)  # pixel on pixel
         if pose is not None:
             _paths(sheet, left, top + CAPTION, scene, pose)

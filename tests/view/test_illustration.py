@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from jaxkin.view.camera import View
-from jaxkin.view.illustration import PAPER, SUPERSAMPLING, Canvas, compose, draw
+from jaxkin.view.illustration import PAPER, SUPERSAMPLING, Canvas, backdrop, compose, draw
 
 FRONT = View(np.eye(3), planar=True)
 CANVAS = Canvas(FRONT, corner=np.array([0.0, 8.0, 0.0]), scale=10.0, height=80, width=120)  # x in 0..12, y in 0..8
@@ -53,7 +53,7 @@ def test_moving_parts_cover_fixed_ones_and_shine_through_where_they_are_covered(
     fixed = draw(CANVAS, [plate([1, 1], [11, 4], 1)], [(0.9, 0.9, 0.9)])
     over, under = draw(CANVAS, [plate([3, 2], [5, 7], 2)], [RED]), draw(CANVAS, [plate([7, 2], [9, 7], 0)], [BLUE])
     nothing = draw(CANVAS, [], [])
-    above, below = compose(fixed, over, nothing), compose(fixed, under, nothing)
+    above, below = (compose(backdrop(fixed, nothing), fixed, each) for each in (over, under))
     assert np.allclose(at(above, 4, 3), RED, atol=0.01) and np.allclose(at(above, 4, 6), RED, atol=0.01)
     assert np.allclose(at(below, 8, 6), BLUE, atol=0.01)
     shining = at(below, 8, 3)
@@ -65,7 +65,7 @@ def test_moving_parts_cover_fixed_ones_and_shine_through_where_they_are_covered(
 def test_a_ghost_is_only_an_outline_and_behind_all_that_moves():
     nothing = draw(CANVAS, [], [])
     ghost, part = draw(CANVAS, [plate([2, 2], [6, 6], 0)], [BLUE]), draw(CANVAS, [plate([4, 1], [10, 7], 0)], [RED])
-    image = compose(nothing, part, ghost)
+    image = compose(backdrop(nothing, ghost), nothing, part)
     assert np.allclose(at(image, 3, 4), PAPER)
     assert 0.6 < at(image, 2.0, 4)[0] < 0.95
     assert np.allclose(at(image, 6.0, 4), RED, atol=0.01)
@@ -73,7 +73,7 @@ def test_a_ghost_is_only_an_outline_and_behind_all_that_moves():
 
 def test_what_lies_below_an_edge_is_in_its_shadow():
     low, high = draw(CANVAS, [plate([0, 0], [12, 8], 0)], [PAPER]), draw(CANVAS, [plate([4, 3], [8, 5], 1)], [RED])
-    image = compose(low, high, draw(CANVAS, [], []))
+    image = compose(backdrop(low, draw(CANVAS, [], [])), low, high)
     near, far = image[40, 84:88].mean(), image[4:8, 110:116].mean()
     assert near < far - 3
 
