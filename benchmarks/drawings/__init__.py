@@ -9,6 +9,7 @@ from drawings import balanced as balanced
 from drawings import bodywork as bodywork
 from drawings import braked as braked
 from drawings import clockwork as clockwork
+from drawings import coupled as coupled
 from drawings import cranked as cranked
 from drawings import dampened as dampened
 from drawings import deployed as deployed
@@ -21,10 +22,12 @@ from drawings import everyday as everyday
 from drawings import explored as explored
 from drawings import fittings as fittings
 from drawings import fixtures as fixtures
+from drawings import flapped as flapped
 from drawings import folding as folding
 from drawings import gripped as gripped
 from drawings import guided as guided
 from drawings import handheld as handheld
+from drawings import hauled as hauled
 from drawings import hitched as hitched
 from drawings import hoisting as hoisting
 from drawings import household as household
@@ -43,6 +46,7 @@ from drawings import paralleled as paralleled
 from drawings import pedalled as pedalled
 from drawings import pinched as pinched
 from drawings import pivoted as pivoted
+from drawings import plotted as plotted
 from drawings import powered as powered
 from drawings import pressed as pressed
 from drawings import pumped as pumped
