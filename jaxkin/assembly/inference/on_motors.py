@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+import numpy as np
+
 from jaxkin.assembly.inference.axes import CommonAxis, engaged
-from jaxkin.assembly.inference.bores import NEAR_LENGTH
+from jaxkin.assembly.inference.bores import NEAR_LENGTH, Bore
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sleeves import MAX_LOOSE, SAME_FIT
@@ -14,6 +16,7 @@ from jaxkin.assembly.inference.solid_motors import SolidMotor
 from jaxkin.assembly.inference.steppers import SAME_SHAFT
 from jaxkin.assembly.inference.stop_faces import stands_across
 from jaxkin.assembly.inference.stopped_joint import StoppedJoint
+from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Certainty, Doubt, Evidence, EvidenceKind
@@ -50,11 +53,26 @@ def _lies_on_flange(known: Known, motor: SolidMotor, part: str) -> bool:
 
 
 def bracket_of(known: Known, motor: str, body: Mapping[str, str]) -> str | None:
-    """Find the only body that a motor touches beside what is on its shaft: it is screwed on there."""
+    """Find the only body that a motor touches beside what is on its shaft: it is screwed on there. What touches nothing
+    of it but the shaft, such as the set screw of a hub, holds no case."""
     on_shaft = {body[part] for pair in known.driven if motor in pair for part in pair}
-    touching = {body[part] for pair in known.touching if motor in pair for part in pair}
-    owners = touching - on_shaft - {body[motor]}
+    shafts = [each.shaft for each in known.measured.motors if each.part == motor]
+    case = [
+        pair
+        for pair in known.touching
+        if motor in pair and not all(any(_is_at(each, shaft) for shaft in shafts) for each in known.between[pair])
+    ]
+    owners = {body[part] for pair in case for part in pair} - on_shaft - {body[motor]}
     return owners.pop() if len(owners) == 1 else None
+
+
+def _is_at(contact: Contact, shaft: Bore) -> bool:
+    """Tell whether a contact is on a shaft or in its end, and not on the face that it comes out of."""
+    slack = NEAR_LENGTH * shaft.radius
+    low, high = shaft.reach(shaft.axis)
+    height = float(contact.centre @ shaft.axis)
+    away = float(np.linalg.norm(np.cross(contact.centre - shaft.point, shaft.axis)))
+    return low + slack < height < high + slack and away <= shaft.radius + slack
 
 
 def held_motors(known: Known) -> list[Inference]:
