@@ -14,7 +14,7 @@ from jaxkin.assembly.inference.sleeves import MAX_LOOSE, SAME_FIT
 from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.assembly.inference.solid_motors import SolidMotor
 from jaxkin.assembly.inference.steppers import SAME_SHAFT
-from jaxkin.assembly.inference.stop_faces import stands_across
+from jaxkin.assembly.inference.stop_faces import ACROSS, stands_across
 from jaxkin.assembly.inference.stopped_joint import StoppedJoint
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.surfaces import Plane
@@ -87,10 +87,17 @@ def held_motors(known: Known) -> list[Inference]:
     return result
 
 
+def _is_on_flat(known: Known, pair: CommonAxis) -> bool:
+    """Tell whether a hub has a plane face along the shaft in contact with one of the shaft, so that both turn."""
+    planes = [each.surfaces[0] for each in known.between.get(frozenset(pair.parts), ()) if each.contact_state.is_flat]
+    return any(isinstance(plane, Plane) and abs(float(plane.normal @ pair.one.axis)) < ACROSS for plane in planes)
+
+
 def motor_joints(known: Known) -> list[StoppedJoint]:
     """Make a revolute joint of each motor and the hubs on its shaft.
 
-    Where the hub fits exactly, it only stops the slide that contacts allow.
+    Where the hub fits exactly, it only stops the slide that contacts allow; on a flat of the shaft contacts allow
+    nothing else, and the joint is taken at once.
     """
     body, result, taken = known.body, [], {*known.jointed}
     for motor, pair in sorted(on_shafts(known), key=lambda each: engaged(each[1]), reverse=True):
@@ -98,7 +105,7 @@ def motor_joints(known: Known) -> list[StoppedJoint]:
         if len(owners) < 2 or owners in taken:
             continue
         taken.add(owners)
-        exact = any(owners == {body[part] for part in each} for each in known.pinned)
+        exact = any(owners == {body[part] for part in each} for each in known.pinned) and not _is_on_flat(known, pair)
         parts = known.in_order(pair.parts)
         joint = pairs.revolute("-".join(parts), *parts, point=pair.other.point, axis=motor.shaft.axis)
         text = f"{pair.other.part!r} is on the shaft of {motor.part!r}, which {motor.told}, and is one solid with it"

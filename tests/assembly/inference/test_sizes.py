@@ -1,8 +1,10 @@
 """Motors and linear bearings, known by their sizes; places and orders at random change nothing."""
 
+import numpy as np
 import pytest
 
-from reference.round_parts import SEEDS, anywhere, assembly, block, kind_of, owners, part, pin, ring
+from jaxkin.geometry.part import moved
+from reference.round_parts import SEEDS, across, anywhere, assembly, block, kind_of, owners, part, pin, ring
 
 ON_CATALOGUE = {"scaled_at_random": False}
 """Sizes of a catalogue are not scaled."""
@@ -98,25 +100,54 @@ def test_the_horn_of_a_servo_turns_on_it_with_what_it_is_set_into(length, width,
     assert not turns or kind_of(mechanism, "horn", "box") == "revolute"
 
 
-@pytest.mark.parametrize("seed", SEEDS)
-def test_a_motor_is_held_in_its_bracket_and_drives_a_four_bar(seed):
-    """Its pilot turns in the bracket by exact contacts; what is on its shaft turns, and nothing else does."""
-    motor = part("motor", block((-21, -21, -40), (21, 21, 0)), pin(11.0, 0, 4), pin(2.5, 4, 22))
+def driven_four_bar():
+    """Pieces of a motor in its bracket, and of a crank on its shaft, a rocker, a coupler and two pins with heads."""
+    motor = (block((-21, -21, -40), (21, 21, 0)), pin(11.0, 0, 4), pin(2.5, 4, 22))
     pivot = [pin(2.5, 4, 22, (70, 35)), pin(4.0, 22, 24, (70, 35))]
-    bracket = part("bracket", ring(11.0, 15.0, 0, 4), block((-30, 15, 0), (120, 50, 4)), *pivot)
+    bracket = (ring(11.0, 15.0, 0, 4), block((-30, 15, 0), (120, 50, 4)), *pivot)
     eyes = [ring(2.5, 7.0, 6, 11, (x, 0)) for x in (0, 25, 70)]
-    crank = part("crank", eyes[0], eyes[1], block((2.5, -3, 6), (22.5, 3, 11)))
-    rocker = part("rocker", eyes[2], ring(2.55, 7.0, 6, 11, (70, 35)), block((67, 2.5, 6), (73, 32.4, 11)))
-    coupler = part(
-        "coupler", *(ring(2.55, 7.0, 11, 16, (x, 0)) for x in (25, 70)), block((27.6, -3, 11), (67.4, 3, 16))
-    )
+    others = {
+        "crank": (eyes[0], eyes[1], block((2.5, -3, 6), (22.5, 3, 11))),
+        "rocker": (eyes[2], ring(2.55, 7.0, 6, 11, (70, 35)), block((67, 2.5, 6), (73, 32.4, 11))),
+        "coupler": (*(ring(2.55, 7.0, 11, 16, (x, 0)) for x in (25, 70)), block((27.6, -3, 11), (67.4, 3, 16))),
+    }
     heads = [(2.5, 6, 16), (4.0, 16, 18), (4.0, 4, 6)]
-    pins = [part(f"pin {x}", *(pin(*size, (x, 0)) for size in heads)) for x in (25, 70)]
-    drawn = anywhere(assembly(motor, bracket, crank, rocker, coupler, *pins), seed, **ON_CATALOGUE)
-    mechanism = drawn.mechanism(fixed=["bracket"])
+    others |= {f"pin {x}": tuple(pin(*size, (x, 0)) for size in heads) for x in (25, 70)}
+    return {"motor": motor, "bracket": bracket, **others}
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("flat", [False, True])
+def test_a_motor_is_held_in_its_bracket_and_drives_a_four_bar(flat, seed):
+    """Its pilot turns in the bracket by exact contacts; what is on its shaft turns, and nothing else does. A flat on
+    the shaft lets the crank slide only, by exact contacts, and then nothing would move."""
+    pieces = driven_four_bar()
+    if flat:  # a face along the shaft, inside of it, and one of the crank on that
+        pieces["motor"] += (block((-2, 0, 6), (2, 2, 11)),)
+        pieces["crank"] += (block((-2, 2, 6), (2, 3.5, 11)),)
+    drawn = assembly(*(part(name, *some) for name, some in pieces.items()))
+    mechanism = anywhere(drawn, seed, **ON_CATALOGUE).mechanism(fixed=["bracket"])
     body = owners(mechanism)
     assert body["motor"] == body["bracket"] != body["crank"]
     assert kind_of(mechanism, "motor", "crank") == "revolute" and mechanism.mobility().useful == 1
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_set_screw_of_a_hub_holds_no_case_of_a_motor(seed):
+    """It touches nothing of the motor but its shaft; nothing that is drawn holds the case, and a lever moves."""
+    base = part("base", block((-40, -40, -60), (90, 40, -40)), pin(4.0, -40, 20, (60, 0)))
+    lever = part("lever", ring(4.1, 8.0, 0, 10, (60, 0)), block((67, -3, 0), (110, 3, 10)))
+    motor = part("motor", block((-21, -21, -40), (21, 21, 0)), pin(11.0, 0, 2), pin(2.5, 2, 22))
+    lift = np.eye(4)
+    lift[2, 3] = 14
+    hole = moved(part("hole", across(ring(1.5, 2.0, 2.5, 8.0))), lift)
+    arm = [ring(2.5, 8.0, 8, 20), block((-60, -3, 10), (-8, 3, 18))]
+    hub = part("hub", *arm, [(face.surface, face.triangles) for face in hole.faces])
+    screw = moved(part("screw", across(pin(1.5, 2.5, 7.0))), lift)
+    drawn = assembly(motor, hub, screw, base, lever)
+    for each in (drawn, anywhere(drawn, seed, **ON_CATALOGUE)):  # the motor first, and in an order at random
+        body = owners(each.mechanism(fixed=["base"], rigid=[["base", "motor"]]))
+        assert body["hub"] != body["motor"] != body["screw"]
 
 
 def rods_and_carriages(length):
