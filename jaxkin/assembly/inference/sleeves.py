@@ -9,7 +9,7 @@ import numpy as np
 
 from jaxkin.assembly.inference.axes import MIN_ENGAGED, CommonAxis, apart, engaged, shared_length
 from jaxkin.assembly.inference.bearings import ROUND
-from jaxkin.assembly.inference.bores import Bore, merged
+from jaxkin.assembly.inference.bores import SAME_LENGTH, Bore, merged
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.stop_faces import ACROSS, play
@@ -97,11 +97,11 @@ def seated_sleeves(known: Known, found: list[Sleeve]) -> list[Inference]:
     tightly than the cylinder. Where the pin fills the same hole, as a piston beside its gland, the hole is one to slide
     in, and nothing is set into it but where it ends; the same holds of a piston that is a ring on its rod. A flange
     that two or more parallel axes hold to another part is screwed on there. What is on the shaft of a motor that is one
-    solid with it turns there.
+    solid with it turns there, and so does a ring with play round a part and inside of the same one.
     """
     result = []
     for each in found:
-        if _is_flange(known, each):
+        if _is_flange(known, each) or _turns_between(known, each):
             continue
         seat, why = each.housing, "set into the hole of"
         if each.pin is not None and frozenset(each.pin.parts) not in known.driven:
@@ -118,6 +118,14 @@ def seated_sleeves(known: Known, found: list[Sleeve]) -> list[Inference]:
         text = f"the sleeve {each.part!r} is {why} {host!r}, with a clearance of {seat.clearance:.2g}"
         result.append(known.fastened(seat, text))
     return result
+
+
+def _turns_between(known: Known, sleeve: Sleeve) -> bool:
+    """Tell whether one body is round a sleeve and inside of it, with play on both sides: the scroll of a chuck, a worm
+    ring, a turntable. What is pressed in, or is screwed there, has a seat without play on one side at least."""
+    if sleeve.pin is None or known.body[sleeve.pin.one.part] != known.body[sleeve.housing.other.part]:
+        return False
+    return min(sleeve.pin.clearance, sleeve.housing.clearance) > SAME_LENGTH * sleeve.pin.one.radius
 
 
 def sliding_rods(known: Known, found: list[Sleeve]) -> set[str]:

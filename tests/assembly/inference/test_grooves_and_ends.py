@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from jaxkin.geometry.surfaces import Plane
-from reference.round_parts import SEEDS, anywhere, assembly, block, moving, owners, part, pin, ring
+from reference.round_parts import SEEDS, anywhere, assembly, block, kind_of, moving, owners, part, pin, ring
 
 
 def of(seed, *parts, fixed="base"):
@@ -109,3 +109,17 @@ def test_a_rod_in_a_nut_in_a_pocket_is_held_there(seed, pocket, held):
     drawn = anywhere(assembly(base, foot, nut, rod, top, lever), seed)
     body = owners(drawn.mechanism(fixed=["base"], rigid=[["base", "foot"]]))
     assert (body["rod"] == body["nut"] == body["foot"]) == held
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(("inside", "outside", "turns"), [(0.1, 0.1, True), (0.0, 0.1, False), (0.1, 0.0, False)])
+def test_a_ring_turns_that_has_play_round_a_part_and_inside_of_the_same_one(inside, outside, turns, seed):
+    """As the scroll of a chuck does. What fits on one side exactly is pressed on there."""
+    walls = [pin(60.0, -10, 0), pin(20.0, 0, 12), pin(24.0, 12, 14), ring(52.0, 60.0, 0, 14)]
+    base = part("base", *walls, pin(4.0, -10, 20, (80, 0)), block((50, -10, -20), (90, 10, -10)))
+    lever = part("lever", ring(4.1, 8.0, 0, 10, (80, 0)), block((87, -3, 0), (130, 3, 10)))
+    scroll = part("scroll", ring(20.0 + inside, 52.0 - outside, 0.1, 11.9))
+    mechanism = anywhere(assembly(base, scroll, lever), seed).mechanism(fixed=["base"])
+    body = owners(mechanism)
+    assert (body["scroll"] != body["base"]) is turns
+    assert not turns or kind_of(mechanism, "base", "scroll") == "revolute"
