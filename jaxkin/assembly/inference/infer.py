@@ -19,6 +19,7 @@ from jaxkin.assembly.inference.closed_bearing_joints import (
     lone_rollers,
 )
 from jaxkin.assembly.inference.collets import collets
+from jaxkin.assembly.inference.concentric import without_concentric
 from jaxkin.assembly.inference.dowels import dowelled
 from jaxkin.assembly.inference.far import far_joints
 from jaxkin.assembly.inference.fasteners import fasteners, stacks
@@ -247,7 +248,7 @@ def _take_joints_between_bodies(known: Known, fastening: Collection[str]) -> _St
     known.take([each.inference for each in turning if not each.replaces_slide])
     body = known.body
     borne = {frozenset(body[part] for part in each.inference.parts) for each in turning}
-    others = hinges(known, fastening)
+    others = without_concentric(known, hinges(known, fastening), [*known.found, *(each.inference for each in turning)])
     joined = [*turning, *(each for each in others if {body[part] for part in each.inference.parts} not in borne)]
     guided = guided_on_faces(known)
     sliding = [*(each.inference for each in guided), *carriages(known)]

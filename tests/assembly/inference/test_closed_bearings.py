@@ -118,3 +118,19 @@ def test_a_bearing_with_room_about_it_is_not_seated_beside_its_axle(room, turns,
     drawn = assembly(arm, part("axle", pin(BORE, -10, 17)), bearing("roller", 0.0))
     body = owners(anywhere(drawn, seed, scaled_at_random=False).mechanism(fixed=["arm"]))
     assert (body["roller"] != body["arm"]) == turns
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(("hollow", "beside"), [(7.0, True), (5.1, False)])
+def test_a_shaft_in_the_wide_hollow_of_another_one_is_beside_it_where_both_have_bearings(hollow, beside, seed):
+    """With the play of a bush the hollow guides the shaft, as a needle bearing in a gear box does."""
+    housing = part("housing", ring(9.5, 20.0, 0, 5), ring(16.0, 20.0, 20, 27), ring(18.0, 20.0, 5, 20))
+    rings = [part("6800", ring(5.0, 9.5, 0, 5)), part("6804", ring(10.0, 16.0, 20, 27))]
+    inner = part("inner", pin(5.0, -10, 18), block((-40, -3, -10), (0, 3, -5)))
+    outer = part("outer", ring(hollow, 10.0, 14, 28), block((10, -3, 27), (40, 3, 28)))
+    drawn = anywhere(assembly(housing, *rings, inner, outer), seed, scaled_at_random=False)
+    mechanism = drawn.mechanism(fixed=["housing"])
+    body = owners(mechanism)
+    pairs = [{body[part] for part in joint.parts} for joint in mechanism.all_joints if joint.freedoms]
+    assert ({body["inner"], body["outer"]} not in pairs) is beside
+    assert {body["inner"], body["housing"]} in pairs and {body["outer"], body["housing"]} in pairs
