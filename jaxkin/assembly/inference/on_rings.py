@@ -11,6 +11,7 @@ from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.fasteners import MAX_NUT
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.sleeves import SAME_FIT
 from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
@@ -19,13 +20,15 @@ def clamped_on_rings(known: Known, found: Sequence[Bearing]) -> list[Inference]:
     """Join each ring of a bearing with what lies flat on it and not on the other ring, through washers and spacers.
 
     It would rub there otherwise: what turns does so between the rings. A stack ends with the first part that reaches
-    farther from the axis than a washer or a spacer does, such as the plate that a bolt holds the wheel to.
+    farther from the axis than a washer or a spacer does, such as the plate that a bolt holds the wheel to. A seal that
+    fits the hole of the housing is pressed in there, and the shaft turns in it.
     """
     result = []
     for each in found:
+        seals = _seals(known, each)
         on = {ring: _flat_on(known, ring, each.axis) for ring in (each.inner, each.outer)}
         for ring, other in ((each.inner, each.outer), (each.outer, each.inner)):
-            shut_out = {each.inner, each.outer, *each.between, *on[other]}
+            shut_out = {each.inner, each.outer, *each.between, *on[other], *(seals if ring == each.inner else ())}
             stack = _stack(known, ring, each.axis, shut_out)
             if stack:
                 parts = known.in_order((ring, *stack))
@@ -33,6 +36,15 @@ def clamped_on_rings(known: Known, found: Sequence[Bearing]) -> list[Inference]:
                 evidence = Evidence(EvidenceKind.BEARING, (("radius", each.axis.radius),), text)
                 result.append(Inference(parts, evidence))
     return result
+
+
+def _seals(known: Known, bearing: Bearing) -> set[str]:
+    """Find the slim rings on the axis of a bearing that fit a hole of what its outer ring is in."""
+    pairs = [pair for pair in known.axes if not pair.virtual and pair.one.on_axis_of(bearing.axis)]
+    housings = {pair.other.part for pair in pairs if pair.one.part == bearing.outer}
+    fitted = [pair for pair in pairs if abs(pair.clearance) <= SAME_FIT * pair.other.radius]
+    rings = {pair.one.part for pair in fitted if pair.other.part in housings} - {bearing.outer}
+    return {part for part in rings if _is_slim(known, part, bearing.axis)}
 
 
 def _stack(known: Known, ring: str, axis: Bore, shut_out: set[str]) -> list[str]:

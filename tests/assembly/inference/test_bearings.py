@@ -111,3 +111,17 @@ def test_what_is_elsewhere_on_a_hollow_axle_are_no_rollers_of_a_disc(seed, where
     ]
     mechanism = anywhere(assembly(axle, disc, *pieces), seed).mechanism(fixed=["base"])
     assert any("a bearing with 3 balls or rollers" in note for note in mechanism.history) == rolls
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(("outside", "still"), [(6.8, True), (6.5, False)])
+def test_a_seal_that_fits_the_housing_does_not_turn_with_the_inner_ring_that_it_lies_on(outside, still, seed):
+    """One with room around it is a spacer, clamped on the shaft with the ring."""
+    housing = part(
+        "housing", ring(OUTSIDE, 25.0, -4, 20), ring(6.8, 25.0, -10, -4), block((-30, -30, -12), (-8, 30, 20))
+    )
+    seal = part("seal", ring(BORE, outside, -10, -4))
+    drawn = anywhere(assembly(housing, SHAFT, seal, *bearing("A", 0)), seed)
+    body = {name: one for one, parts in drawn.mechanism(fixed=["housing"]).bodies.items() for name in parts}
+    assert body["housing"] != body["shaft"]
+    assert body["seal"] == (body["housing"] if still else body["shaft"])
