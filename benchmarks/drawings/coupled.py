@@ -134,8 +134,8 @@ def bevel_differential(random: np.random.Generator) -> Drawing:
     pinion = union(frustum(spin + 60 * Y, Y, 8.5, 11, 18), cyl(spin + 78 * Y, Y, 11, 7), cyl(spin + 80 * Y, Y, 8, 60))
     d.add("Pinion shaft", pinion)
     fast(d, "Pinion shaft", Pinion_nut=nut(spin + 100 * Y, Y, 8))
-    d.add("Pinion bearing", tube(spin + 85 * Y, Y, 8, 16, 15))
-    d.add("Case", case.cut(bore(spin + 90 * Y, Y, 16, 20)))
+    d.add("Pinion bearing", tube(spin + 85 * Y, Y, 8, 19, 15))
+    d.add("Case", case.cut(bore(spin + 90 * Y, Y, 19, 20)))
     turns(d, ("Case", "Carrier", at(0, 0, 0), X), ("Case", "Pinion shaft", spin, Y))
     return d
 

@@ -57,6 +57,8 @@ class Ring(NamedTuple):
     """All its bores and pins about its axis."""
     plain: bool
     """Whether it has no holes beside its axis, as rings have that are screwed on."""
+    told: str = "has the size of a ball bearing"
+    """What tells that it is a whole bearing, where it is one, as a clause."""
 
 
 def bearings(parts: Sequence[Part], bores: Mapping[str, Sequence[Bore]]) -> list[Bearing]:

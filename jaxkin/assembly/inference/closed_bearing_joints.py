@@ -35,7 +35,7 @@ def closed_bearing_bodies(known: Known, found: Sequence[Ring]) -> list[Inference
         seats = [pair for pair in seats if not _is_room(known, pair)]
         if seats:
             seat = max(seats, key=engaged)
-            text = f"{each.part.name!r} has the size of a ball bearing, and sits in {seat.other.part!r}"
+            text = f"{each.part.name!r} {each.told}, and sits in {seat.other.part!r}"
             result.append(Inference(known.in_order(seat.parts), _evidence(each, text)))
     return result
 
@@ -70,7 +70,7 @@ def closed_bearing_joints(known: Known, found: Sequence[Ring]) -> list[StoppedJo
         others.append(pair.one)
         parts = known.in_order(pair.parts)
         joint = pairs.revolute("-".join(parts), *parts, point=pair.other.point, axis=pair.one.axis)
-        text = f"{pair.one.part!r} turns in {pair.other.part!r}, which has the size of a ball bearing"
+        text = f"{pair.one.part!r} turns in {pair.other.part!r}, which {of[pair.other.part].told}"
         inference = Inference.of(joint, _evidence(of[pair.other.part], text))
         result.append(StoppedJoint(inference, Stop.BEARING, exact))
     return result
@@ -90,7 +90,7 @@ def lone_rollers(known: Known, found: Sequence[Ring]) -> list[Inference]:
         if under and known.touches_only_across(name, hosts[0], each.hole.axis):
             parts = known.in_order((name, hosts[0]))
             joint = pairs.revolute("-".join(parts), *parts, point=each.hole.point, axis=each.hole.axis)
-            text = f"{name!r} has the size of a ball bearing, with nothing around it, and lies on {hosts[0]!r} over a "
+            text = f"{name!r} {each.told}, with nothing around it, and lies on {hosts[0]!r} over a "
             text += f"hole of radius {under[0].radius:.4g}, as on a bolt that is not drawn"
             result.append(Inference.of(joint, _evidence(each, text)))
     return result

@@ -1,4 +1,4 @@
-"""Ball bearings that are drawn as one closed ring, known by their sizes: those of ISO 15 and of inch series."""
+"""Ball bearings that are drawn as one closed ring, known by their sizes, of ISO 15 and of inch series, or by names."""
 
 from __future__ import annotations
 
@@ -9,10 +9,15 @@ from jaxtyping import Float
 
 from jaxkin.assembly.inference.bearings import Ring, reach_of, ring_of
 from jaxkin.assembly.inference.bores import Bore
+from jaxkin.assembly.inference.named_bearings import is_named_bearing
 from jaxkin.geometry.part import Part
 
 SAME_SIZE = 0.005
 """Difference of a size that is none, over the size: bores are drawn with some hundredths of a millimetre of play."""
+
+MAX_WIDTH, THINNEST = 0.6, (0.2, 0.85)
+"""Width and bore of a ball bearing over its outside diameter: those of the table below have up to 0.56, and 0.24 to
+0.81."""
 
 _SIZES = """
 1.5 4 1.2; 2 5 1.5; 2 5 2.3; 2 6 2.3; 2 6 3; 2.5 6 1.8; 2.5 6 2.6; 3 6 2; 3 6 2.5; 3 7 2; 3 7 3; 3 8 2.5; 3 8 3; 3 8
@@ -44,12 +49,22 @@ SIZES = sizes_of(_SIZES)
 
 
 def closed_bearings(parts: Sequence[Part], bores: Mapping[str, Sequence[Bore]], metre: float = 1e-3) -> list[Ring]:
-    """Find the rings without other holes that have the size of a ball bearing.
+    """Find the rings without other holes that have the size of a ball bearing, or the name of one and its proportions.
 
     `bores` are the bores and pins of each part by its name, and `metre` is the unit of lengths in metres.
     """
     rings = [ring for part in parts if (ring := ring_of(part, bores[part.name])) is not None]
-    return [ring for ring in rings if ring.plain and is_catalogued(ring, metre / 1e-3, SIZES)]
+    sized = {ring.part.name for ring in rings if ring.plain and is_catalogued(ring, metre / 1e-3, SIZES)}
+    named = [ring for ring in rings if ring.plain and is_named_bearing(ring.part.name) and _has_proportions(ring)]
+    named = [ring._replace(told="is a ball bearing by its name") for ring in named if ring.part.name not in sized]
+    return [*(ring for ring in rings if ring.part.name in sized), *named]
+
+
+def _has_proportions(ring: Ring) -> bool:
+    """Tell whether a ring is as wide and as thick as ball bearings are: a bush is longer, or thinner."""
+    low, high = reach_of(ring, ring.hole)
+    outside = 2 * ring.outside.radius
+    return bool(high - low <= MAX_WIDTH * outside and THINNEST[0] <= 2 * ring.hole.radius / outside <= THINNEST[1])
 
 
 def is_catalogued(ring: Ring, millimetres: float, sizes: Float[np.ndarray, "sizes 3"]) -> bool:
