@@ -30,7 +30,8 @@ def closed_bearing_bodies(known: Known, found: Sequence[Ring]) -> list[Inference
     """Join each bearing with what its outside sits in."""
     result = []
     for each in found:
-        seats = [pair for pair in known.axes if pair.one is each.outside and not pair.virtual]
+        outsides = {id(own) for own in each.coaxial if not own.hole}  # the widest one may be that of a flange
+        seats = [pair for pair in known.axes if id(pair.one) in outsides and not pair.virtual]
         seats = [pair for pair in seats if pair.clearance <= MAX_LOOSE * pair.other.radius]
         seats = [pair for pair in seats if not _is_room(known, pair)]
         if seats:

@@ -149,12 +149,15 @@ def test_a_shaft_in_the_wide_hollow_of_another_one_is_beside_it_where_both_have_
         ("ring", 6.0, False),
     ],
 )
-def test_a_ring_of_any_size_is_a_ball_bearing_by_its_name_unless_it_is_long(name, width, turns, seed):
+@pytest.mark.parametrize("flange", [False, True])
+def test_a_ring_of_any_size_is_a_ball_bearing_by_its_name_unless_it_is_long(name, width, turns, flange, seed):
     """The shaft fits the ring as exactly as that fits its seat: by contacts alone it turns and slides."""
     base = part("base", ring(10.0, 20.0, 0, 20), block((14, -10, 0), (70, 10, 10)), pin(4.0, 10, 40, (60, 0)))
     lever = part("lever", ring(4.1, 8.0, 12, 22, (60, 0)), block((67, -3, 12), (110, 3, 22)))
     axle = part("axle", pin(5.0, -10, 40), block((-30, -3, 35), (0, 3, 40)))
-    drawn = assembly(base, lever, axle, part(name, ring(5.0, 10.0, 0, width)))
+    rim = [ring(5.0, 11.5, -1, 0)] if flange else []
+    drawn = assembly(base, lever, axle, part(name, ring(5.0, 10.0, 0, width), *rim))
     mechanism = anywhere(drawn, seed).mechanism(fixed=["base"])
+    assert not turns or owners(mechanism)[name] == "base"
     told = [joint for joint in mechanism.all_joints if joint.evidence and "by its name" in joint.evidence.text]
     assert [str(joint.kind) for joint in told if joint.freedoms] == (["revolute"] if turns else [])
