@@ -8,6 +8,7 @@ import pytest
 from jaxkin.solve.linear.constrained import minimise_constrained
 from jaxkin.solve.linear.inverse_root import inverse_root
 from jaxkin.solve.linear.orthonormal_rows import orthonormal_rows
+from jaxkin.solve.linear.own_equations import Blocks
 
 POSES = 3
 SHAPES = [(0, 6), (1, 1), (3, 6), (7, 6), (9, 18), (25, 30), (20, 12)]
@@ -149,3 +150,50 @@ def test_unknowns_in_no_equation_are_those_whose_columns_are_zero(rows, held, si
     both = [jax.jit(jax.grad(loss, argnums=(1, 2, 3, 4)), static_argnums=0)(columns, *given) for columns in (0, 3)]
     for one, other in zip(*both, strict=True):
         np.testing.assert_allclose(one, other, atol=1e-10 * float(jnp.abs(other).max()))
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("contradict", [False, True])
+@pytest.mark.parametrize(
+    ("absent", "blocks", "rows"),
+    [(0, Blocks(6, ((0, 1), (5, 3), ())), 14), (4, Blocks(3, ((2,), (0,))), 7), (0, Blocks(3, ((4, 1, 0), (2,))), 6)],
+)
+def test_own_equations_of_blocks_may_be_eliminated_first(absent, blocks, rows, contradict):
+    """Minima and their derivatives backwards are those without blocks, also where equations depend on own ones.
+
+    Tolerance: rounding times the condition, about 1e3.
+    """
+    rng, inside = np.random.default_rng(rows), blocks.width * len(blocks.own)
+    held = inside + 1
+    factor = rng.normal(size=(absent + held, absent + held, POSES))
+    matrix = np.einsum("ikp,jkp->ijp", factor, factor) + np.eye(absent + held)[..., None]
+    equations, right = rng.normal(size=(rows, held, POSES)), rng.normal(size=(rows, POSES))
+    for number, own in enumerate(blocks.own):
+        outside = np.delete(np.arange(held), np.arange(number * blocks.width, (number + 1) * blocks.width))
+        equations[np.ix_(own, outside)] = 0.0
+    first = [row for own in blocks.own for row in own]
+    # the last equation is a combination of others, own ones among them, in all poses but one
+    others = [row for row in range(rows - 1) if row not in first]
+    combination = np.zeros(rows)
+    combination[[first[0], first[-1], others[0]]] = 1.0, -2.0, 0.5
+    equations[-1, :, 1:] = np.einsum("r,rcp->cp", combination, equations)[:, 1:]
+    if not contradict:
+        right[-1, 1:] = (combination @ right)[1:]
+    # a change of the unknowns within each block: dependent equations stay dependent
+    within = np.kron(np.eye(len(blocks.own)), np.ones((blocks.width, blocks.width)))
+    turn = np.pad(within, (0, 1)) * rng.normal(size=(held, held))
+    change = jnp.asarray(np.einsum("rcp,cd->rdp", equations, turn))
+    slope, far = rng.normal(size=(absent + held, POSES)), np.zeros(POSES)
+    given = [jnp.asarray(each) for each in (matrix, slope, far, right)]
+    weights = jnp.asarray(rng.normal(size=(absent + held, 1)))
+
+    def loss(blocks, matrix, slope, far, right):
+        found = minimise_constrained(matrix, slope, equations + far * change, right, blocks)
+        return jnp.sum(weights * found**2), found
+
+    each = [
+        jax.jit(jax.value_and_grad(loss, argnums=(1, 2, 3, 4), has_aux=True), static_argnums=0)(some, *given)
+        for some in (blocks, None)
+    ]
+    for one, other in zip(*map(jax.tree.leaves, each), strict=True):
+        np.testing.assert_allclose(one, other, atol=1e-11 * float(jnp.abs(other).max()))

@@ -38,6 +38,7 @@ from jaxkin.effects.forces.balance_equations import (
     equations,
     gradient_by_chords,
     hessian,
+    own_blocks,
     stacked,
     wrenches_of_chords,
 )
@@ -51,7 +52,8 @@ from jaxkin.joints.joint import Joint, JointCoordinate
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.joint_motion import JointDisplacements
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.solve.linear.constrained import column_sums, minimise_constrained
+from jaxkin.solve.linear.constrained import minimise_constrained
+from jaxkin.solve.linear.gram import column_sums
 from jaxkin.solve.range.groups import in_groups
 
 LARGEST_GROUP = 512
@@ -177,7 +179,7 @@ def _solve(
     strengths = [none] * len(ties)
     for loops in balanced_loops(linkage):
         axes = wrench_axes(linkage, loops.plane, [(n, k) for n in loops.joints for k in free[n]], found.screws)
-        of_joints, of_couplings = _solve_loops(loops, axes, joints, wrenches, loads, ties)
+        of_joints, of_couplings = _solve_loops(linkage, loops, axes, joints, wrenches, loads, ties)
         for number, wrench in zip(loops.joints, of_joints, strict=True):
             wrenches[number] = wrench
         for number, strength in zip(loops.couplings, of_couplings, strict=True):
@@ -194,6 +196,7 @@ def _solve(
 
 
 def _solve_loops(
+    linkage: Linkage,
     loops: BalancedLoops,
     axes: WrenchAxes,
     every: Sequence[JointBalance],
@@ -219,7 +222,8 @@ def _solve_loops(
     absent = axes.absent * len(loops.chords)
     by_held = column_sums(system.chords, load) - by_wrenches[absent:]
     slope = jnp.concatenate([-by_wrenches[:absent], by_held, column_sums(system.couplings, right)])
-    z = minimise_constrained(hessian(loops, axes, arms, system), slope, system.rows, right)
+    blocks = own_blocks(linkage, loops, axes, [each.screws.shape[0] for each in joints])
+    z = minimise_constrained(hessian(loops, axes, arms, system), slope, system.rows, right, blocks)
     unknown = wrenches_of_chords(loops, axes, z)
     found = [
         w + sum((share * unknown[c] for c, share in enumerate(shares) if share), jnp.zeros((6, poses)))

@@ -43,6 +43,16 @@ def column_products(one: Matrix, other: Float[Array, "rows others poses"]) -> Fl
     return jnp.einsum("rcp,rop->cop", one, other)
 
 
+def row_sums(matrix: Matrix, vector: Float[Array, "columns poses"]) -> Vector:
+    """Compute A x at every pose."""
+    return jnp.sum(matrix * vector[None], axis=1)
+
+
+def column_sums(matrix: Matrix, vector: Vector) -> Float[Array, "columns poses"]:
+    """Compute A^T x at every pose."""
+    return jnp.sum(matrix * vector[:, None], axis=0)
+
+
 def add_damping(gram: Float[Array, "n n poses"], damping: Damping) -> Float[Array, "n n poses"]:
     """Compute J J^T + damping s 1 from J J^T."""
     diagonal = np.arange(len(gram))

@@ -87,17 +87,17 @@ def _halved(matrix: Matrix, least: Float[Array, " poses"]) -> OrthonormalRows:
 
 
 def _with_orthonormal_combinations(found: OrthonormalRows) -> OrthonormalRows:
-    return found._replace(vanishing=_independent(found.vanishing))
+    return found._replace(vanishing=independent_rows(found.vanishing))
 
 
-def _independent(matrix: Matrix) -> Matrix:
+def independent_rows(matrix: Matrix) -> Matrix:
     """Make independent rows orthonormal, the upper half first; rows of zeros stay so."""
     if len(matrix) <= MAX_ROWS_IN_TURN:
         return lax.fori_loop(0, len(matrix), _one_in_turn, matrix)
     half = len(matrix) // 2
-    upper = _independent(matrix[:half])
+    upper = independent_rows(matrix[:half])
     along = row_products(matrix[half:], upper)
-    return jnp.concatenate([upper, _independent(matrix[half:] - product(along, upper))])
+    return jnp.concatenate([upper, independent_rows(matrix[half:] - product(along, upper))])
 
 
 def _one_in_turn(number: Any, each: Matrix) -> Matrix:
