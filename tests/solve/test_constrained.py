@@ -188,7 +188,7 @@ def test_own_equations_of_blocks_may_be_eliminated_first(absent, blocks, rows, c
     weights = jnp.asarray(rng.normal(size=(absent + held, 1)))
 
     def loss(blocks, matrix, slope, far, right):
-        found = minimise_constrained(matrix, slope, equations + far * change, right, blocks)
+        found = minimise_constrained(matrix, slope, equations + far * change, right, blocks=blocks)
         return jnp.sum(weights * found**2), found
 
     each = [

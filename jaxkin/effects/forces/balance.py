@@ -223,7 +223,7 @@ def _solve_loops(
     by_held = column_sums(system.chords, load) - by_wrenches[absent:]
     slope = jnp.concatenate([-by_wrenches[:absent], by_held, column_sums(system.couplings, right)])
     blocks = own_blocks(linkage, loops, axes, [each.screws.shape[0] for each in joints])
-    z = minimise_constrained(hessian(loops, axes, arms, system), slope, system.rows, right, blocks)
+    z = minimise_constrained(hessian(loops, axes, arms, system), slope, system.rows, right, blocks=blocks)
     unknown = wrenches_of_chords(loops, axes, z)
     found = [
         w + sum((share * unknown[c] for c, share in enumerate(shares) if share), jnp.zeros((6, poses)))

@@ -32,6 +32,7 @@ def minimise_constrained(
     slope: Float[Array, "n poses"],
     equations: Float[Array, "equations held poses"],
     right: Float[Array, "equations poses"],
+    *,
     blocks: Blocks | None = None,
 ) -> Float[Array, "n poses"]:
     """Find z (n, poses) from M (n, n, poses), a (n, poses), E (equations, held, poses) and b (equations, poses).
