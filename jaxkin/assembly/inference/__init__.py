@@ -8,7 +8,7 @@ Reading begins in `infer`, which calls the rules, the surest first. What the mod
 | measured once | `measured`; `bores`, `axes`, `bearings`, `closed_bearings`, `slotted_pins`, `stop_faces`, `embedded` |
 | what is known so far, and what a rule finds | `known`, `inference` |
 | asked by several rules | `contact_faces`, `walls`, `slots`, `sockets`, `heads`, `coaxial_features`, `moves`, |
-| | `slide_stops` |
+| | `slide_stops`, `part_names` |
 | tubes that may be springs, found before all rules | `springs` |
 | rules, one kind of evidence each, and parts of them | all others: functions of a `Known` that list `Inference`s |
 """

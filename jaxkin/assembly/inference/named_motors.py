@@ -2,25 +2,23 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 
 import numpy as np
 
 from jaxkin.assembly.inference.bores import SAME_LENGTH, Bore
+from jaxkin.assembly.inference.part_names import words_of
 from jaxkin.geometry.part import Part
 
 _ENDINGS = ("motor", "motors", "moteur", "motore", "servo", "stepper", "motoreductor", "motorreductor")
 """How words for motors end, in English, German, Spanish, Portuguese, Polish, Czech, French and Italian."""
-_PLACES = frozenset(("left", "right", "front", "rear", "upper", "lower", "top", "bottom"))
-"""Words that may follow: others make it something of the motor, its plate or its shaft."""
 MIN_CASE = 2.5
 """Farthest a motor reaches from its shaft, over the radius of that, at least."""
 
 
 def is_named_motor(name: str) -> bool:
     """Tell whether the name of a part says that it is a motor, and not something of one."""
-    words = [word for word in re.findall(r"[^\W\d_]+", name.lower()) if len(word) > 2 and word not in _PLACES]
+    words = words_of(name)
     return bool(words) and words[-1].endswith(_ENDINGS)
 
 
