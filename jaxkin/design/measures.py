@@ -29,6 +29,8 @@ STATIC = {"static": True}
 """Of a field that is no number: a program is compiled anew for another value."""
 ON_AXIS = 1e-9
 """Distance of a point from an axis, over its distance from the joint of the axis, up to which it is on the axis."""
+IN_LINE = 16
+"""Sine of the angle between two links up to which they are in line, in roundings: a few of each of their ends."""
 
 
 @jax.tree_util.register_dataclass
@@ -91,8 +93,10 @@ def transmission_angle(motion: Motion, joint: str, ends: tuple[str, str]) -> Flo
                     f"{end!r} another point of its axis, or name another joint of the same link"
                 )
             links[number] = across
-    cross = root(jnp.sum(jnp.cross(*links) ** 2, axis=-1))  # zero where the links are in line
-    return jnp.arctan2(cross, jnp.sum(links[0] * links[1], axis=-1))
+    square, lengths = jnp.sum(jnp.cross(*links) ** 2, axis=-1), jnp.sum(links[0] ** 2, -1) * jnp.sum(links[1] ** 2, -1)
+    # links in line but for rounding are in line: which side they are on, and with it the slope, would be chance
+    in_line = square <= (IN_LINE * jnp.finfo(square.dtype).eps) ** 2 * lengths
+    return jnp.arctan2(root(jnp.where(in_line, 0.0, square)), jnp.sum(links[0] * links[1], axis=-1))
 
 
 def stroke(motion: Motion, joint: str) -> Float[Array, ""]:

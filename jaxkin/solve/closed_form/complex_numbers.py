@@ -82,4 +82,4 @@ def unit(number: Complex) -> Complex:
     xp, size = namespace(number.real, number.imag), square(number)
     positive = size > 0
     inverse = 1.0 / xp.sqrt(xp.where(positive, size, 1.0))
-    return Complex(xp.where(positive, number.real * inverse, 1.0), number.imag * inverse)
+    return Complex(xp.where(positive, number.real * inverse, 1.0), xp.where(positive, number.imag * inverse, 0.0))
