@@ -136,7 +136,7 @@ def test_no_region_goes_beyond_the_limits_of_a_joint():
     inside = (elbow >= low) & (elbow <= high)  # nan, where there is no pose, is neither
     wanted = connected(grid, 86.0, inside)
     assert 0 < wanted.sum() < connected(grid, 86.0).sum()
-    assert found.regions == ((0,), (1,)) and "mode 2: beyond the limits of joints; 1 poses" in str(found)
+    assert found.regions == ((0,), (1,)) and "mode 2: beyond the limits of joints; 1 pose" in str(found)
     np.testing.assert_array_equal(found.poses[0], wanted)
     assert found.poses[1].sum() == 1
 

@@ -51,7 +51,7 @@ def test_a_block_on_an_incline_and_what_it_says_at_rest():
     np.testing.assert_array_equal(found.friction.rests["P"], [False, True, False])
     np.testing.assert_allclose(found.friction.most["P"], 3.0 * 9.81 * 0.2 * np.cos(np.pi / 6), rtol=1e-12)
     np.testing.assert_allclose(found.friction.losses["P"], 0.05 * 5.097426 * np.array([1, 0, 1]), rtol=1e-6)
-    assert "P does not slide in 1 poses, first 1: its friction is taken as zero there, and may be up to 5.097 N" in str(
+    assert "P does not slide in 1 pose, first 1: its friction is taken as zero there, and may be up to 5.097 N" in str(
         found
     )
 
