@@ -15,8 +15,12 @@ from jaxkin.topology.structure import Structure
 def host_transforms(
     structure: Structure, joints: Sequence[Joint], columns: Sequence[Float[np.ndarray, "poses _"]]
 ) -> Iterator[Float[np.ndarray, "poses 4 4"]]:
-    """Compute the displacements of all parts from the assembled pose, in the order of `structure.part_names`, as
-    `joint_motion.transforms` does; `columns` are the coordinates of each joint."""
+    """Compute the displacements of all parts from the assembled pose, in the world, in the order of
+    `structure.part_names`: P_child = P_parent J along the tree, as `joint_motion.transforms` does.
+
+    `columns` are the coordinates of each joint: radians, and lengths in the unit of the mechanism. Where a joint up to
+    a part has no finite coordinates, the displacement of the part is NaN.
+    """
     poses = len(columns[0])
     found: dict[str, Float[np.ndarray, "3 4 poses"]] = {}
     known: dict[str, Bool[np.ndarray, " poses"]] = {}

@@ -15,9 +15,9 @@ from jaxkin.geometry.part import Part
 SAME_SIZE = 0.005
 """Difference of a size that is none, over the size: bores are drawn with some hundredths of a millimetre of play."""
 
-MAX_WIDTH, THINNEST = 0.6, (0.2, 0.85)
-"""Width and bore of a ball bearing over its outside diameter: those of the table below have up to 0.56, and 0.24 to
-0.81."""
+MAX_WIDTH, BORES = 0.6, (0.2, 0.85)
+"""Largest width of a ball bearing, and least and largest bore, over its outside diameter: those of the table below have
+up to 0.56, and 0.24 to 0.81."""
 
 _SIZES = """
 1.5 4 1.2; 2 5 1.5; 2 5 2.3; 2 6 2.3; 2 6 3; 2.5 6 1.8; 2.5 6 2.6; 3 6 2; 3 6 2.5; 3 7 2; 3 7 3; 3 8 2.5; 3 8 3; 3 8
@@ -64,7 +64,7 @@ def _has_proportions(ring: Ring) -> bool:
     """Tell whether a ring is as wide and as thick as ball bearings are: a bush is longer, or thinner."""
     low, high = reach_of(ring, ring.hole)
     outside = 2 * ring.outside.radius
-    return bool(high - low <= MAX_WIDTH * outside and THINNEST[0] <= 2 * ring.hole.radius / outside <= THINNEST[1])
+    return bool(high - low <= MAX_WIDTH * outside and BORES[0] <= 2 * ring.hole.radius / outside <= BORES[1])
 
 
 def is_catalogued(ring: Ring, millimetres: float, sizes: Float[np.ndarray, "sizes 3"]) -> bool:

@@ -65,6 +65,7 @@ class _Spheres(NamedTuple):
 
 @once_for_each
 def _spheres(part: Part) -> _Spheres:
+    """Find spheres around the triangles of a part, from their centroids, once for all that is looked for in it."""
     middles = part.triangles.mean(axis=1)
     return _Spheres(middles, np.linalg.norm(part.triangles - middles[:, None], axis=2).max(axis=1))
 

@@ -30,7 +30,7 @@ class BlockFactors(NamedTuple):
 
     def solved(self, y: Vector) -> Float[Array, "held poses"]:
         """Find a z with E z = y, where no equation contradicts others."""
-        first, others = self._numbers(len(y))
+        first, others = _numbers(self.blocks, len(y))
         one = row_sums(self.own.inverse, y[first])
         return self.own.together(self.blocks, one, self.left.solved(y[others] - row_sums(self.along, one)))
 
@@ -39,19 +39,18 @@ class BlockFactors(NamedTuple):
         one, other = self.own.apart(self.blocks, z)
         of_others = self.left.combined(other)
         of_own = column_sums(self.own.inverse, one - column_sums(self.along, of_others))
-        return jnp.concatenate([of_own, of_others])[np.argsort(np.concatenate(self._numbers(self.vanishing.shape[1])))]
+        return jnp.concatenate([of_own, of_others])[
+            np.argsort(np.concatenate(_numbers(self.blocks, self.vanishing.shape[1])))
+        ]
 
     def minimum(self, slope: Float[Array, "n poses"], right: Vector) -> Float[Array, "n poses"]:
         """Minimise z^T M z / 2 - a^T z where E z = b, for a `slope` a and a `right` side b that no equation
         contradicts."""
-        before, (first, others) = len(self.left.root) - self.left.rows.shape[1], self._numbers(len(right))
+        before, (first, others) = len(self.left.root) - self.left.rows.shape[1], _numbers(self.blocks, len(right))
         one = row_sums(self.own.inverse, right[first])
         other = jnp.concatenate([slope[:before], self.own.apart(self.blocks, slope[before:])[1]])
         found = self.left.minimum(other - row_sums(self.across, one), right[others] - row_sums(self.along, one))
         return jnp.concatenate([found[:before], self.own.together(self.blocks, one, found[before:])])
-
-    def _numbers(self, equations: int) -> tuple[np.ndarray, np.ndarray]:
-        return _numbers(self.blocks, equations)
 
 
 def _numbers(blocks: Blocks, equations: int) -> tuple[np.ndarray, np.ndarray]:
