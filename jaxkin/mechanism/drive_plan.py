@@ -29,6 +29,7 @@ from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
 from jaxkin.solve.closed_form.assembled_axes import AssembledAxes, assembled_axes
 from jaxkin.solve.closed_form.group_formulas import why_not_all
 from jaxkin.solve.closed_form.input_line import InputLine, full_turn
+from jaxkin.solve.closed_form.planar_derivative import has_planar_slopes
 from jaxkin.solve.system.from_linkage import coupled_places, group_joints, group_system, solved_coordinates
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
@@ -64,6 +65,9 @@ class DrivenLoopGroup(NamedTuple):
     axes: AssembledAxes | None
     """The axes of the assembled pose, from which formulas compute the poses; None where they are traced, or where a
     group has no formula: see `jaxkin.solve.closed_form`."""
+    planar_axes: AssembledAxes | None
+    """The same of planar loops, from which their rates follow in poses that are known, with or without formulas; None
+    where they are traced, or where `jaxkin.solve.closed_form.planar_derivative` does not serve."""
     line: InputLine | None
     """What the formulas say of a full turn of the input; None where that is no angle, or where there are no `axes`."""
     given: GivenLoops | None
@@ -99,11 +103,12 @@ def plan_drive(linkage: Linkage, keys: tuple[str, ...]) -> DrivePlan:
     if traced(linkage):  # changes of the numbers may leave a plane
         return _plan_drive(linkage.in_space, keys)
     plan = _plan_drive(linkage, keys)
-    on_device = jax.device_put([loop_group.joints for loop_group in plan.loop_groups])
+    on_device = jax.device_put([(loop_group.joints, loop_group.planar_axes) for loop_group in plan.loop_groups])
     if traced(on_device):
         return plan
     loop_groups = tuple(
-        loop_group._replace(joints=joints) for loop_group, joints in zip(plan.loop_groups, on_device, strict=True)
+        loop_group._replace(joints=joints, planar_axes=axes)
+        for loop_group, (joints, axes) in zip(plan.loop_groups, on_device, strict=True)
     )
     kept[key] = plan._replace(loop_groups=loop_groups, formula_sweep=_formula_sweep(plan))
     return kept[key]
@@ -160,11 +165,13 @@ def _driven_loop_group(
         every = group_system(linkage, loop_group, driven, LoopClass())
         given = GivenLoops(*every, group_joints(linkage, linkage.joints, loop_group))
     joints = group_joints(linkage, linkage.solved_joints, loop_group)
-    axes, line = None, None
-    if on_host is not None and why_not_all(system) is None:
+    axes, line, by_formulas = None, None, why_not_all(system) is None
+    planar = has_planar_slopes(system) and not traced(joints)  # under `grad` alone they are known, and have derivatives
+    if on_host is not None and (by_formulas or planar):
         axes = assembled_axes(system, group_joints(on_host, on_host.solved_joints, loop_group))
-        line = full_turn(system, axes) if system.periodic else None
-    return DrivenLoopGroup(loop_group, system, columns, groups, by_counting, inputs, joints, axes, line, given)
+        line = full_turn(system, axes) if by_formulas and system.periodic else None
+    own = axes if by_formulas else None, axes if planar else None, line
+    return DrivenLoopGroup(loop_group, system, columns, groups, by_counting, inputs, joints, *own, given)
 
 
 def _formula_sweep(plan: DrivePlan) -> FormulaSweep | None:

@@ -134,11 +134,14 @@ class FormulaSweep:
     def passes(self, inputs: Mapping[str, Array | np.ndarray]) -> bool:
         """Tell whether all inputs are angles, in radians, within the range that the motion passes without doubt.
 
-        No pose is singular then.
+        No pose is singular then: a range that does not begin is the assembled pose alone, which may be.
         """
         rows = [np.asarray(row) for row in inputs.values()]
         return all(
-            turn is not None and rows[which].size > 0 and turn.for_inputs(rows[which]) is turn.passed
+            turn is not None
+            and turn.lowest < turn.highest
+            and rows[which].size > 0
+            and turn.for_inputs(rows[which]) is turn.passed
             for turn, which in zip(self.turn_lines, self.inputs, strict=True)
         )
 

@@ -1,9 +1,9 @@
 """Differentiate the displacements of a motion whose poses are known: the closure is solved at them to first order.
 
 A sweep that is differentiated finds its poses anew. Here the poses are those of the motion, and only the derivative of
-the closure (`jaxkin.solve.range.implicit_derivative`) is computed: for velocities one linear system a pose, or a few
-cross products where planar loops have formulas. Nested derivatives are those of a sweep, too, and so are derivatives
-with respect to lengths.
+the closure (`jaxkin.solve.range.implicit_derivative`) is computed: for velocities one linear system a pose, of planar
+loops by the twists of the pose (`jaxkin.solve.closed_form.planar_derivative`). Nested derivatives are those of a sweep,
+too, and so are derivatives with respect to lengths.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ from jaxtyping import Array, Float, Int
 from jaxkin._traced import traced
 from jaxkin.linkage.first_order import Columns
 from jaxkin.linkage.joint_motion import JointDisplacements
-from jaxkin.mechanism.drive_plan import DrivePlan, plan_drive
+from jaxkin.mechanism.drive_plan import plan_drive
 from jaxkin.solve.closed_form.assembled_axes import AssembledAxes
-from jaxkin.solve.closed_form.known_poses_by_formula import known_displacements_by_formula
+from jaxkin.solve.closed_form.known_poses_in_plane import known_displacements_in_plane
 from jaxkin.solve.range.known_poses import known_displacements
 from jaxkin.solve.status import Status, is_closed_on_branch
 from jaxkin.solve.system.joints import Joints
@@ -47,6 +47,8 @@ class KnownLoopGroup(NamedTuple):
     columns: Columns
     inputs: tuple[str, ...]
     """Its inputs, in the order of `system.driven`."""
+    regular: bool
+    """Whether no pose is singular, so that planar loops have the derivatives of their formulas."""
     refined: bool
     """Whether the poses are those of least residual of given joints that disagree: the loops of the ideal joints are
     closed from there, before they are differentiated."""
@@ -68,7 +70,7 @@ class KnownMotion(NamedTuple):
     """The numbers of a motion that its derivatives follow from."""
 
     numbers: tuple[Joints | AssembledAxes, ...]
-    """Of every loop group of the `KnownDrive`: axes where its derivatives are those of formulas, else joints."""
+    """Of every loop group of the `KnownDrive`: the axes of planar loops whose numbers are known, else the joints."""
     displacements: JointDisplacements
     status: Int[Array, " poses"]
 
@@ -87,25 +89,17 @@ def known_motion(motion: Motion) -> tuple[KnownDrive, KnownMotion]:
     linkage = motion.mechanism.linkage
     plan = plan_drive(linkage if motion.swept else linkage.whole, tuple(motion.inputs))
     names = list(plan.driven)
+    formulas = plan.formula_sweep
+    regular = formulas is not None and not traced(motion.inputs) and formulas.passes(motion.inputs)
+    own = plan.loop_groups if len(motion) else ()
     loop_groups = tuple(
-        KnownLoopGroup(each.system, each.columns, tuple(names[i] for i in each.inputs), each.given is not None)
-        for each in (plan.loop_groups if len(motion) else ())
+        KnownLoopGroup(each.system, each.columns, tuple(names[i] for i in each.inputs), regular, each.given is not None)
+        for each in own
     )
     driven = tuple((name, *place) for name, place in plan.driven.items())
-    numbers = _numbers(plan, motion)[: len(loop_groups)]
+    numbers = tuple(each.joints if each.given or each.planar_axes is None else each.planar_axes for each in own)
     drive = KnownDrive(plan.freedoms, driven, loop_groups, motion.mechanism.unit)
     return drive, KnownMotion(numbers, motion.displacements, motion.status)
-
-
-def _numbers(plan: DrivePlan, motion: Motion) -> tuple[Joints | AssembledAxes, ...]:
-    """Choose the numbers from which the derivatives of each loop group follow: the axes where no pose is singular."""
-    joints = tuple(each.joints for each in plan.loop_groups)
-    if (formulas := plan.formula_sweep) is None or traced(motion.inputs) or not formulas.passes(motion.inputs):
-        return joints
-    return tuple(
-        known.axes if system.planar else own
-        for own, known, system in zip(joints, formulas.numbers, formulas.systems, strict=True)
-    )
 
 
 def follow(drive: KnownDrive, known: KnownMotion) -> Follow:
@@ -129,7 +123,9 @@ def follow(drive: KnownDrive, known: KnownMotion) -> Follow:
             given = [jnp.where(finite, inputs[name], 0.0) for name in loop_group.inputs]
             given = jnp.stack(given) if given else jnp.zeros((0, len(finite)), rows.dtype)
             if isinstance(numbers, AssembledAxes):
-                found = known_displacements_by_formula(loop_group.system, numbers, given, rows, status)
+                found = known_displacements_in_plane(
+                    loop_group.system, numbers, given, rows, status, regular=loop_group.regular
+                )
             else:
                 found = known_displacements(loop_group.system, numbers, given, rows, status, loop_group.refined)
             columns |= dict(zip(loop_group.columns, found, strict=True))

@@ -6,14 +6,15 @@
 | `vectors` | | products of vectors of space, and their turns about axes |
 | `equations` | A cos x + B sin x = C; (s + b)^2 = c | one angle; one displacement |
 | `planar_dyad` | planar, of turns R and slides P: RRR; RRP, RPR, PRR; RPP, PRP, PPR | three |
-| `planar_derivative` | the same | their derivatives, by the screws of a pose |
+| `planar_derivative` | the same, and planar loops without a formula | their derivatives, by the screws of a pose |
+| `planar_twists`, `planar_least_norm` | | what `planar_derivative` adds up and solves |
 | `spherical_triangle` | turns about axes through one point: RRR | three angles |
 | `rod` | a rod between two balls, whose other joints are known but for one | one angle or displacement |
 
 `group_formulas` tells which formula a group of loops has; `solve_groups` evaluates those of all groups of a system, one
 after another, with the axes of `assembled_axes` and the links of `chain_motions`. `range_by_formula` finds the poses
 of a range, and their statuses by the proof of `branch_certificate` along the nodes of `input_line`;
-`formula_displacements` and `known_poses_by_formula` give displacements with derivatives.
+`formula_displacements` and `known_poses_in_plane` give displacements with derivatives.
 
 A loop is written as a product of displacements in world coordinates, each about its axis in the assembled pose,
 
