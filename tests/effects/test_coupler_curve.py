@@ -208,7 +208,7 @@ def test_single_precision_has_the_same_cusps_and_crossings(motion):
                 for name, place in places.items()
             ],
         )
-        once, twice = (tilted.sweep({"A": np.linspace(0.0, turns * 2 * np.pi, turns * 180 + 1)}) for turns in (1, 2))
+        once, twice = (tilted.sweep({"A": np.linspace(0.0, turns * 2 * np.pi, 361)}) for turns in (1, 2))
         assert once.residual.dtype == np.float32
         for swept in (once, twice):
             found = jk.coupler_curve(swept, "coupler", tilt @ cusp)

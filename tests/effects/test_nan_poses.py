@@ -1,5 +1,7 @@
 """Derivatives of what is computed of a motion, of which a pose has no numbers: those of the other poses."""
 
+from functools import cache
+
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -18,19 +20,19 @@ def turning(motion):
     return jk.velocities(motion, {"A": jnp.where(jnp.arange(len(motion)) == 0, 0.0, 1.0)})
 
 
-def axes(motion):
+def axes(velocities):
     """Points of the screw axes of poses that have some."""
-    point = jk.screw_axes(turning(motion), "coupler").point
+    point = jk.screw_axes(velocities, "coupler").point
     return jnp.where(jnp.isnan(point), 0.0, point)
 
 
 COMPUTED = {
-    "points": lambda motion: motion.points("coupler", AT),
-    "transforms": lambda motion: motion.transforms["rocker"],
-    "singular value": lambda motion: motion.sigma_min,
-    "velocities": lambda motion: turning(motion).points("coupler", AT),
-    "screw axes": axes,
-    "transmission": lambda motion: jk.transmission(motion, "D").angle,  # of drive forces and reactions
+    "points": lambda motion, _: motion.points("coupler", AT),
+    "transforms": lambda motion, _: motion.transforms["rocker"],
+    "singular value": lambda motion, _: motion.sigma_min,
+    "velocities": lambda _, velocities: velocities().points("coupler", AT),
+    "screw axes": lambda _, velocities: axes(velocities()),
+    "transmission": lambda motion, _: jk.transmission(motion, "D").angle,  # of drive forces and reactions
 }
 
 
@@ -42,10 +44,12 @@ def test_a_pose_without_numbers_spoils_no_derivative(names):
 
     def totals(length, inputs):
         motion = mechanism.with_lengths({COUPLER: length}).sweep({"A": inputs})
-        found = [COMPUTED[name](motion) for name in names]
-        return jnp.stack([jnp.sum(jnp.where(kept.reshape(-1, *[1] * (each.ndim - 1)), each, 0.0)) for each in found])
+        velocities = cache(lambda: turning(motion))
+        found = [COMPUTED[name](motion, velocities) for name in names]
+        sums = jnp.stack([jnp.sum(jnp.where(kept.reshape(-1, *[1] * (each.ndim - 1)), each, 0.0)) for each in found])
+        return sums, sums
 
-    derivatives = jax.jit(lambda *given: (totals(*given), *jax.jacrev(totals, (0, 1))(*given)))
+    derivatives = jax.jit(lambda *given: jax.tree.leaves(jax.jacrev(totals, (0, 1), has_aux=True)(*given)))
     length = float(mechanism.lengths[COUPLER])
     # the pose that is left out has an input that is no number, or one
     for found, expected in zip(derivatives(length, INPUTS), derivatives(length, INPUTS.at[1].set(0.15)), strict=True):

@@ -112,7 +112,7 @@ def test_velocities_and_accelerations(make, law_of, follower):
 @pytest.mark.long
 def test_many_turns_are_one_turn_again():
     mechanism, law = sliding("roller"), slide_law("roller")
-    far = np.linspace(0.0, 80 * np.pi, 500)
+    far = np.linspace(0.0, 80 * np.pi, len(TURN))  # most of a turn a step
     motion = mechanism.sweep({"shaft": far}, throw=True)
     np.testing.assert_allclose(motion.coordinates["guide"][:, 0], law(far) - law(0.0), atol=SPLINE)
     # rounding of forty turns of 157 mm
