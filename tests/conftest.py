@@ -13,6 +13,7 @@ import os
 from pathlib import Path
 
 import jax
+import pytest
 
 jax.config.update("jax_enable_x64", True)
 
@@ -65,6 +66,15 @@ def pytest_collection_modifyitems(config, items):
     last = {test(item): item for item in items}
     config.hook.pytest_deselected(items=[item for item in items if last[test(item)] is not item])
     items[:] = [item for item in items if last[test(item)] is item]
+
+
+@pytest.fixture
+def without_pictures(monkeypatch):
+    """Have motions written without their pictures, which take seconds, for a test that looks at the other files."""
+    from jaxkin.io.writers import WRITERS
+
+    for name in ("motion.png", "coordinates.png"):
+        monkeypatch.delitem(WRITERS, name)
 
 
 MOST_MAPS = 15_000

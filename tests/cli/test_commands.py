@@ -141,6 +141,7 @@ base-crank = "0:360:5"
 
 
 @pytest.mark.long
+@pytest.mark.usefixtures("without_pictures")
 def test_a_study_is_swept_and_inspected_like_the_options_that_it_stands_for(tmp_path):
     (tmp_path / "fourbar.step").write_bytes(path("fourbar").read_bytes())
     study = tmp_path / "study.toml"
@@ -180,6 +181,7 @@ def test_inspect_draws_what_it_found(tmp_path):
 
 
 @pytest.mark.long
+@pytest.mark.usefixtures("without_pictures")
 def test_inspect_writes_a_page_and_a_study_that_sweeps(tmp_path):
     page, study = tmp_path / "report.html", tmp_path / "study.toml"
     done = invoke("inspect", FOURBAR, "--page", page, "--study", study)

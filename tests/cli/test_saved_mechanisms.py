@@ -19,6 +19,7 @@ def invoke(*arguments):
 
 
 @pytest.mark.long
+@pytest.mark.usefixtures("without_pictures")
 def test_a_saved_mechanism_is_inspected_swept_and_written_as_a_study(tmp_path):
     saved, study = tmp_path / "linkage.json", tmp_path / "study.toml"
     jk.load(FOURBAR).mechanism(fixed=["ground"]).save(saved)

@@ -63,6 +63,7 @@ def test_what_is_off_or_not_named_is_not_computed(tmp_path, monkeypatch):
 
 
 @pytest.mark.long
+@pytest.mark.usefixtures("without_pictures")
 def test_only_what_can_be_computed_is_offered(tmp_path):
     """A study that is written from solids has its joints by hand: the option that is offered runs as it stands."""
     found = CliRunner().invoke(
@@ -192,6 +193,7 @@ def test_forces_by_name(tmp_path):
 
 
 @pytest.mark.long
+@pytest.mark.usefixtures("without_pictures")
 def test_the_command_line_writes_them(tmp_path):
     study(tmp_path, rates="true")
     said = CliRunner().invoke(app, ["sweep", str(tmp_path / "study.toml"), "--out", str(tmp_path / "out")])
