@@ -81,7 +81,9 @@ MOST_MAPS = 15_000
 """Memory maps of a process above which compiled programs are forgotten. A program has some hundred of them, and Linux
 allows 65,530 by default: beyond that XLA crashes."""
 MOST_MEMORY = 2_000_000_000
-"""Bytes of memory above which they are forgotten, too: a process that runs half of the long tests had 6e9."""
+"""Bytes of memory above which they are forgotten, too, or an eighth of that of the machine where this is more (four
+processes run at most): one that ran half of the long tests had 6e9. Forgetting takes seconds, with all small programs
+that are compiled again."""
 
 
 def pytest_runtest_teardown(item, nextitem):
@@ -92,8 +94,9 @@ def pytest_runtest_teardown(item, nextitem):
     if not (process / "maps").exists():
         return
     maps = (process / "maps").read_bytes().count(b"\n")
-    memory = int((process / "statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
-    if maps > MOST_MAPS or memory > MOST_MEMORY:
+    page = os.sysconf("SC_PAGE_SIZE")
+    memory = int((process / "statm").read_text().split()[1]) * page
+    if maps > MOST_MAPS or memory > max(MOST_MEMORY, os.sysconf("SC_PHYS_PAGES") * page // 8):
         jax.clear_caches()
         gc.collect()
         if hasattr(libc := ctypes.CDLL(None), "malloc_trim"):  # glibc keeps what was freed otherwise
