@@ -80,10 +80,10 @@ def without_pictures(monkeypatch):
 MOST_MAPS = 15_000
 """Memory maps of a process above which compiled programs are forgotten. A program has some hundred of them, and Linux
 allows 65,530 by default: beyond that XLA crashes."""
-MOST_MEMORY = 2_000_000_000
-"""Bytes of memory above which they are forgotten, too, or an eighth of that of the machine where this is more (four
-processes run at most): one that ran half of the long tests had 6e9. Forgetting takes seconds, with all small programs
-that are compiled again."""
+MOST_MEMORY = 2_000_000_000, 3_000_000_000
+"""Bytes of memory above which they are forgotten, too: an eighth of that of the machine within these, as four processes
+run at most, and a container may have less than its machine. One that ran half of the long tests had 6e9. Forgetting
+takes seconds, with all small programs that are compiled again."""
 
 
 def pytest_runtest_teardown(item, nextitem):
@@ -96,7 +96,8 @@ def pytest_runtest_teardown(item, nextitem):
     maps = (process / "maps").read_bytes().count(b"\n")
     page = os.sysconf("SC_PAGE_SIZE")
     memory = int((process / "statm").read_text().split()[1]) * page
-    if maps > MOST_MAPS or memory > max(MOST_MEMORY, os.sysconf("SC_PHYS_PAGES") * page // 8):
+    least, most = MOST_MEMORY
+    if maps > MOST_MAPS or memory > min(max(least, os.sysconf("SC_PHYS_PAGES") * page // 8), most):
         jax.clear_caches()
         gc.collect()
         if hasattr(libc := ctypes.CDLL(None), "malloc_trim"):  # glibc keeps what was freed otherwise
