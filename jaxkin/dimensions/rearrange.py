@@ -61,7 +61,7 @@ def arrange(xp, layout: Layout, original, guess, targets) -> tuple[Any, Any]:
     turn = guess[0, :3, :3] if xp is np else lax.stop_gradient(guess[0, :3, :3])
     pairs = _turned(xp, turn, _pairs(xp, layout, original, guess, targets, size))
     start = guess[:, :3, 3] @ turn / size
-    positions = solve_positions(xp, pairs, start)
+    positions = solve_positions(xp, pairs, _movable(layout), start)
     # the norm of the residuals is least at these positions, so its derivative by them is zero
     rows, _ = residuals(xp, pairs, positions if xp is np else lax.stop_gradient(positions))
     misfit = xp.sqrt(xp.sum(rows**2) + xp.sum(pairs.angle_errors**2) + least)
@@ -214,17 +214,24 @@ def _offset_equations(
         yield sign * vector, xp.asarray(offset / size)
 
 
-def _movers(xp, layout: Layout, coincident):
-    """Make the weights (features,): 1 for features that move and those that coincide with them, 0 for the others.
+def _movable(layout: Layout) -> tuple[int, ...]:
+    """List the features that may move: all but the first ones of changes that are not the second of another one."""
+    moving, firsts = _moving(layout), {change.first for change in layout.changes}
+    return tuple(i for i in range(len(layout.features)) if i in moving or i not in firsts)
 
-    The first feature of a change moves only if it is also the second of another change.
-    """
-    count = len(layout.features)
+
+def _moving(layout: Layout) -> list[int]:
+    """List the second features of changes; at least one feature is not among them."""
     moving = sorted({change.second for change in layout.changes})
-    moving = moving if len(moving) < count else moving[1:]  # at least one feature stays
+    return moving if len(moving) < len(layout.features) else moving[1:]
+
+
+def _movers(xp, layout: Layout, coincident):
+    """Make the weights (features,): 1 for features that move and those that coincide with them, 0 for the others."""
+    moving = _moving(layout)
     firsts = {change.first for change in layout.changes}
     weights = []
-    for i in range(count):
+    for i in range(len(layout.features)):
         moves = xp.asarray(i in moving)
         for j in moving if i not in firsts else ():
             moves = moves | coincident[i, j]

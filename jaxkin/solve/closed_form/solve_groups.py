@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -44,6 +44,11 @@ class Solved(NamedTuple):
         return namespace(*rows).stack(rows)
 
 
+def call_plainly(function: Callable[..., Any], *args: Any) -> Any:
+    """Call a function, where what it computes may be differentiated, or is NumPy's."""
+    return function(*args)
+
+
 def assembled_roots(system: LoopSystem, axes: AssembledAxes) -> list[Number]:
     """Compute the signed root of the discriminant of every group in the assembled pose: its sign is that of the branch.
 
@@ -54,19 +59,34 @@ def assembled_roots(system: LoopSystem, axes: AssembledAxes) -> list[Number]:
 
 
 def solve_groups(
-    system: LoopSystem, axes: AssembledAxes, signs: Sequence[Number], inputs: Float[Array | np.ndarray, "driven poses"]
+    system: LoopSystem,
+    axes: AssembledAxes,
+    signs: Sequence[Number],
+    inputs: Float[Array | np.ndarray, "driven poses"],
+    call: Callable[..., Any] = call_plainly,
 ) -> Solved:
-    """Compute all coordinates for inputs in radians and characteristic lengths, on the branches of these signs."""
+    """Compute all coordinates for inputs in radians and characteristic lengths, on the branches of these signs.
+
+    `call` calls the two functions of arrays that each group is made of: the links that are known, and its formula.
+    """
     xp = namespace(inputs, axes.centre)
     x: list[Coordinate | None] = [None] * system.columns
     for column, row in zip(system.driven, inputs, strict=True):
         x[column] = given(row, is_length=system.is_length[column])
     discriminants = []
     for formula, sign in zip(_formulas(system), signs, strict=True):
-        coordinates, discriminant = _solve(system, axes, formula, x, sign)
+
+        def known_parts(axes: AssembledAxes, x: FormulaCoordinates, formula=formula) -> Any:
+            return _known_parts(system, axes, formula, x)
+
+        def solved(axes: AssembledAxes, known: Any, sign: Number, formula=formula):
+            coordinates, discriminant = _solve(axes, formula, known, sign)
+            return jax.tree.map(lambda row: xp.broadcast_to(row, inputs.shape[1:]), (coordinates, discriminant))
+
+        coordinates, discriminant = call(solved, axes, call(known_parts, axes, x), sign)
         for column, coordinate in zip(formula.columns, coordinates, strict=True):
-            x[column] = jax.tree.map(lambda row: xp.broadcast_to(row, inputs.shape[1:]), coordinate)
-        discriminants.append(xp.broadcast_to(discriminant, inputs.shape[1:]))
+            x[column] = coordinate
+        discriminants.append(discriminant)
     rest = Coordinate(xp.zeros_like(inputs[0]), REST.turn)
     return Solved(tuple(rest if each is None else each for each in x), tuple(discriminants))
 
@@ -77,14 +97,17 @@ def solve_once(
     signs: Float[Array | np.ndarray, "groups 1"],
     inputs: Float[Array | np.ndarray, "driven poses"],
 ) -> Solved:
-    """Compute the same as `solve_groups`, in a program so that it is computed once: see `computed_once`."""
+    """Compute the same as `solve_groups`, in a program so that links and unknowns of each group are computed once.
+
+    One chain of cheap operations from the input to the last group would be computed anew for each of its coordinates.
+    """
     if namespace(inputs, axes.centre) is np:
         return solve_groups(system, axes, list(signs), inputs)
 
-    def solved(axes: AssembledAxes, signs: Array, inputs: Array) -> Solved:
-        return jax.tree.map(jnp.asarray, solve_groups(system, axes, list(signs), inputs))
+    def once(function: Callable[..., Any], *args: Any) -> Any:
+        return computed_once(lambda *args: jax.tree.map(jnp.asarray, function(*args)), *args)
 
-    return computed_once(solved, axes, signs, inputs)
+    return jax.tree.map(jnp.asarray, solve_groups(system, axes, list(signs), inputs, once))
 
 
 def _formulas(system: LoopSystem) -> list[GroupFormula]:
@@ -95,36 +118,37 @@ def _formulas(system: LoopSystem) -> list[GroupFormula]:
     return found
 
 
-def _solve(
-    system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, x: FormulaCoordinates, sign: Number
-) -> tuple[list[Coordinate], Number]:
+def _known_parts(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, x: FormulaCoordinates) -> Any:
+    """Find the arguments of the formula of a group, a tuple, but for the sign of its branch."""
+    if formula.name == "planar dyad":
+        return _planar(system, axes, formula, x)
+    if formula.name == "spherical triangle":
+        return _spherical(system, axes, formula, x)
+    axis, centre = _axis(axes, formula)
+    known = _rod(system, axes, formula, x)
+    return (axis, centre, *known) if formula.letters == "R" else (axis, *known)
+
+
+def _solve(axes: AssembledAxes, formula: GroupFormula, known: Any, sign: Number) -> tuple[list[Coordinate], Number]:
     """Compute the coordinates of a group, and its discriminant."""
     if formula.name == "planar dyad":
-        motions, discriminant = planar_dyad.planar_dyad(formula.letters, *_planar(system, axes, formula, x), sign)
+        motions, discriminant = planar_dyad.planar_dyad(formula.letters, *known, sign=sign)
     elif formula.name == "spherical triangle":
-        motions, discriminant = spherical_triangle.spherical_triangle(*_spherical(system, axes, formula, x), sign)
+        motions, discriminant = spherical_triangle.spherical_triangle(*known, sign=sign)
     else:
-        near, far, length = _rod(system, axes, formula, x)
-        axis, centre = _axis(axes, formula)
-        if formula.letters == "R":
-            *motions, discriminant = rod.rod_turn(axis, centre, near, far, length, sign)
-        else:
-            *motions, discriminant = rod.rod_slide(axis, near, far, length, sign)
+        *motions, discriminant = (rod.rod_turn if formula.letters == "R" else rod.rod_slide)(*known, sign=sign)
     senses = [axes.sense[row, formula.chain] for row in formula.rows]
     return [found(motion).times(sense) for motion, sense in zip(motions, senses, strict=True)], discriminant
 
 
 def _signed_root(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, rest: FormulaCoordinates) -> Number:
     """Compute the signed root of the discriminant of a group, whose unknowns are zero, at the coordinates `rest`."""
+    known = _known_parts(system, axes, formula, rest)
     if formula.name == "planar dyad":
-        return planar_dyad.signed_root(formula.letters, *_planar(system, axes, formula, rest))
+        return planar_dyad.signed_root(formula.letters, *known)
     if formula.name == "spherical triangle":
-        return spherical_triangle.signed_root(*_spherical(system, axes, formula, rest))
-    near, far, _ = _rod(system, axes, formula, rest)
-    axis, centre = _axis(axes, formula)
-    if formula.letters == "R":
-        return rod.signed_root_of_turn(axis, centre, near, far)
-    return rod.signed_root_of_slide(axis, near, far)
+        return spherical_triangle.signed_root(*known)
+    return (rod.signed_root_of_turn if formula.letters == "R" else rod.signed_root_of_slide)(*known[:-1])
 
 
 def _planar(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, x: FormulaCoordinates):
