@@ -97,7 +97,8 @@ def main(poses: int = POSES) -> None:
             subprocess.run(
                 [sys.executable, __file__, "--measure", path, str(poses)], env=os.environ | platform, check=True
             )
-            found.append(dict(np.load(path)))
+            with np.load(path) as file:
+                found.append(dict(file))
     device, cpu = found
     print(f"{device['device']} beside {os.cpu_count()} cores, jax {jax.__version__}, {poses} poses\n")
     print(f"{'':28}{'device [ms]':>12}{'cpu [ms]':>10}{'statuses':>10}{'apart':>9}")

@@ -18,6 +18,11 @@ def invoke(*arguments):
     return CliRunner().invoke(app, [str(argument) for argument in arguments])
 
 
+def saved_motion(folder: Path) -> dict[str, np.ndarray]:
+    with np.load(folder / "motion.npz") as file:
+        return dict(file)
+
+
 @pytest.mark.long
 @pytest.mark.usefixtures("without_pictures")
 def test_a_saved_mechanism_is_inspected_swept_and_written_as_a_study(tmp_path):
@@ -29,7 +34,7 @@ def test_a_saved_mechanism_is_inspected_swept_and_written_as_a_study(tmp_path):
     for file, drive in ((saved, DRIVE), (study, []), (FOURBAR, [*FIXED, *DRIVE])):
         done = invoke("sweep", file, *drive, "--out", tmp_path / Path(file).stem)
         assert done.exit_code == 0 and "5  CLOSED" in done.output, done.output
-    one, *others = (np.load(tmp_path / name / "motion.npz") for name in ("fourbar", "linkage", "study"))
+    one, *others = (saved_motion(tmp_path / name) for name in ("fourbar", "linkage", "study"))
     for other in others:
         for name in ("ground-rocker", "coupler-rocker"):
             np.testing.assert_allclose(other[f"joint:{name}"], one[f"joint:{name}"], atol=1e-12)

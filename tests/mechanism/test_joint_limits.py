@@ -187,8 +187,8 @@ def test_a_stream_and_its_file_tell_the_same(tmp_path):
     assert [line for line in str(whole).splitlines() if "limits" in line] == [
         line for line in said.splitlines() if "limits" in line
     ]
-    saved = np.load(tmp_path / "motion.npz")
-    names = saved["status_names"][saved["status"]]
+    with np.load(tmp_path / "motion.npz") as saved:
+        names = saved["status_names"][saved["status"]]
     np.testing.assert_array_equal(names == "LIMITED", np.asarray(whole.status) == jk.Status.LIMITED)
 
 
