@@ -121,3 +121,27 @@ def test_an_assembled_pose_in_line_has_the_rates_of_least_norm():
     assert {name: abs(rate) for name, rate in rates.items()} == pytest.approx(
         {name: abs(rate) for name, rate in expected.items()}, abs=1e-12
     )
+
+
+@pytest.mark.long
+def test_rates_are_differentiated_backwards_as_forwards():
+    """With J the derivative of the rates by the inputs, c . (J t) = (J^T c) . t for any t and c, to some roundings."""
+    mechanism = catalogue.peaucellier()
+    way, random = np.linspace(-0.02, 0.03, 5), np.random.default_rng(4)
+    (group,) = plan_drive(mechanism.linkage, ("Q",)).loop_groups
+    motion = mechanism.sweep({"Q": way})
+    known = jnp.stack([motion.displacements[joint][:, k] for joint, k in group.columns])
+    inputs, axes = jnp.asarray(way)[None], group.planar_axes
+    assert axes is not None
+
+    def rates(inputs):
+        def place(u):
+            return known_displacements_in_plane(group.system, axes, u, known, motion.status, regular=False)
+
+        return jax.jvp(place, (inputs,), (jnp.ones_like(inputs),))[1]
+
+    along, across = random.normal(size=inputs.shape), random.normal(size=known.shape)
+    forwards = jax.jit(lambda u: jax.jvp(rates, (u,), (along,))[1])(inputs)
+    (backwards,) = jax.jit(lambda u: jax.vjp(rates, u)[1](across))(inputs)
+    assert float(np.sum(across * forwards)) == pytest.approx(float(np.sum(backwards * along)), rel=1e-12)
+    assert np.abs(forwards).max() > 1e-3
