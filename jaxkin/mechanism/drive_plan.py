@@ -170,8 +170,19 @@ def _driven_loop_group(
     if on_host is not None and (by_formulas or planar):
         axes = assembled_axes(system, group_joints(on_host, on_host.solved_joints, loop_group))
         line = full_turn(system, axes) if by_formulas and system.periodic else None
-    own = axes if by_formulas else None, axes if planar else None, line
-    return DrivenLoopGroup(loop_group, system, columns, groups, by_counting, inputs, joints, *own, given)
+    return DrivenLoopGroup(
+        members=loop_group,
+        system=system,
+        columns=columns,
+        groups=groups,
+        by_counting=by_counting,
+        inputs=inputs,
+        joints=joints,
+        axes=axes if by_formulas else None,
+        planar_axes=axes if planar else None,
+        line=line,
+        given=given,
+    )
 
 
 def _formula_sweep(plan: DrivePlan) -> FormulaSweep | None:

@@ -48,7 +48,7 @@ class KnownLoopGroup(NamedTuple):
     inputs: tuple[str, ...]
     """Its inputs, in the order of `system.driven`."""
     regular: bool
-    """Whether no pose is singular, so that planar loops have the derivatives of their formulas."""
+    """Whether no pose is singular, so that planar loops have the derivatives of their formulas; False of others."""
     refined: bool
     """Whether the poses are those of least residual of given joints that disagree: the loops of the ideal joints are
     closed from there, before they are differentiated."""
@@ -92,12 +92,19 @@ def known_motion(motion: Motion) -> tuple[KnownDrive, KnownMotion]:
     formulas = plan.formula_sweep
     regular = formulas is not None and not traced(motion.inputs) and formulas.passes(motion.inputs)
     own = plan.loop_groups if len(motion) else ()
+    axes = [None if each.given else each.planar_axes for each in own]
     loop_groups = tuple(
-        KnownLoopGroup(each.system, each.columns, tuple(names[i] for i in each.inputs), regular, each.given is not None)
-        for each in own
+        KnownLoopGroup(
+            system=each.system,
+            columns=each.columns,
+            inputs=tuple(names[i] for i in each.inputs),
+            regular=regular and planar is not None,  # all others have one program, in any range
+            refined=each.given is not None,
+        )
+        for each, planar in zip(own, axes, strict=True)
     )
     driven = tuple((name, *place) for name, place in plan.driven.items())
-    numbers = tuple(each.joints if each.given or each.planar_axes is None else each.planar_axes for each in own)
+    numbers = tuple(each.joints if planar is None else planar for each, planar in zip(own, axes, strict=True))
     drive = KnownDrive(plan.freedoms, driven, loop_groups, motion.mechanism.unit)
     return drive, KnownMotion(numbers, motion.displacements, motion.status)
 

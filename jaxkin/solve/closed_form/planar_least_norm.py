@@ -89,7 +89,9 @@ def least_norm_rates(
 def _least_norm(equations: Sequence[Sequence[Number]], right: Sequence[Number], mean_square: Number) -> list[Number]:
     """Solve with least norm; `mean_square` is that of all equations of the loops, those of turn included.
 
-    A pose is singular where these are, as for the solver: the damping is relative to them.
+    A pose is singular where these are, as for the solver: the damping is relative to them. It is the algorithm of
+    `least_norm.solve_least_norm_refined`, by entries: as arrays, whose sums XLA does not join with what the entries are
+    made of, 10,000 poses of the paper's Fig. 7 took 10.8 ms in place of 2.0.
     """
     absolute = damping_floor(jnp.result_type(right[0])) * mean_square
     columns = list(zip(*equations, strict=True))

@@ -65,8 +65,8 @@ def loop_twists(
 ) -> LoopTwists:
     """Compute the twists of a closed loop: travel along it, and note the rotation and the shift of what lies before.
 
-    `rows` are the coordinates of all columns, `turns` those that turn. What is known are the rates `d_axes` of the
-    axes, None where these rest.
+    `rows` are the coordinates of all columns, radians and characteristic lengths, and `turns` those that turn as
+    complex numbers. What is known are the rates `d_axes` of the axes, None where these rest.
     """
     table = chain_tables(system)
     one, zero = jnp.ones_like(rows[0]), jnp.zeros_like(rows[0])

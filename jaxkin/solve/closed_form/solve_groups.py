@@ -44,7 +44,7 @@ class Solved(NamedTuple):
         return namespace(*rows).stack(rows)
 
 
-def call_plainly(function: Callable[..., Any], *args: Any) -> Any:
+def _plainly(function: Callable[..., Any], *args: Any) -> Any:
     """Call a function, where what it computes may be differentiated, or is NumPy's."""
     return function(*args)
 
@@ -63,7 +63,7 @@ def solve_groups(
     axes: AssembledAxes,
     signs: Sequence[Number],
     inputs: Float[Array | np.ndarray, "driven poses"],
-    call: Callable[..., Any] = call_plainly,
+    call: Callable[..., Any] = _plainly,
 ) -> Solved:
     """Compute all coordinates for inputs in radians and characteristic lengths, on the branches of these signs.
 
