@@ -13,7 +13,8 @@
 
 `group_formulas` tells which formula a group of loops has; `solve_groups` evaluates those of all groups of a system, one
 after another, with the axes of `assembled_axes` and the links of `chain_motions`. `range_by_formula` finds the poses
-of a range, and their statuses by the proof of `branch_certificate` along the nodes of `input_line`;
+of a range, and their statuses by the proof of `branch_certificate` along the nodes of `input_line`; `poses_on_grid`
+those of a range that is a `turn_grid`, whose poses are the nodes, with fewer arc tangents by `loop_angles`;
 `formula_displacements` and `known_poses_in_plane` give displacements with derivatives.
 
 A loop is written as a product of displacements in world coordinates, each about its axis in the assembled pose,

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import jax.numpy as jnp
 import numpy as np
@@ -26,7 +26,7 @@ passed on another branch, and 1e-6 away the coordinates are still right to a tho
 MAX_TURN = 1.5
 """Largest change of an angle from node to node, radians: more than half a turn would be unwrapped wrongly."""
 BLOCK = 16
-"""Intervals whose turns are summed at once; their number must be a multiple."""
+"""Intervals whose turns are summed at once."""
 PARABOLA_ERROR = 0.064
 """Largest error of a parabola through three nodes between two of them, over h^3 times the third derivative: that of
 t (t - 1) (t + 1) / 6 for t from 0 to 1."""
@@ -102,20 +102,38 @@ def unwrapped(turns: Sequence[Complex]) -> list[Float[Array | np.ndarray, " node
         return []
     xp = namespace(*turns[0])
     angles = [xp.asarray(rough_argument(turn)) for turn in turns]
-    changed = xp.stack([xp.round((angle[1:] - angle[:-1]) / TURN) for angle in angles])
-    # sums of blocks, then of blocks before them: products of small matrices, which XLA does faster than sums one by one
-    blocks = changed.reshape(len(turns), -1, BLOCK)
+    changed = xp.stack([turns_leapt(angle) for angle in angles])
+    return [angle - TURN * row for angle, row in zip(angles, summed(changed), strict=True)]
+
+
+def turns_leapt(angles: Float[Array | np.ndarray, "*angles nodes"]) -> Float[Array | np.ndarray, "*angles intervals"]:
+    """Count by how many full turns principal values leap between neighbouring nodes: -1, 0 or 1."""
+    return namespace(angles).round((angles[..., 1:] - angles[..., :-1]) / TURN)
+
+
+def summed(changed: Float[Array | np.ndarray, "angles intervals"]) -> Float[Array | np.ndarray, "angles nodes"]:
+    """Sum up the full turns that angles leap, from the first node to each.
+
+    Sums of blocks, then of blocks before them: products of small matrices, which XLA does faster than sums one by one.
+    """
+    xp, (count, intervals) = namespace(changed), changed.shape
+    blocks = xp.pad(changed, ((0, 0), (0, -intervals % BLOCK))).reshape(count, -1, BLOCK)
     within = blocks @ np.tri(BLOCK).T
     before = within[:, :, -1] @ np.tri(blocks.shape[1], k=-1).T
-    sums = (within + before[:, :, None]).reshape(changed.shape)
-    return [angle - TURN * xp.concatenate([np.zeros(1), row]) for angle, row in zip(angles, sums, strict=True)]
+    sums = (within + before[:, :, None]).reshape(count, -1)[:, :intervals]
+    return xp.concatenate([np.zeros((count, 1)), sums], axis=1)
 
 
-def is_steep(turn: Complex) -> Bool[Array | np.ndarray, " intervals"]:
-    """Tell in which intervals an angle changes by more than `MAX_TURN`: by the cosine of its change."""
-    xp = namespace(*turn)
-    real, imag = map(xp.asarray, turn)
-    return real[1:] * real[:-1] + imag[1:] * imag[:-1] < math.cos(MAX_TURN)
+def are_steep(turns: Sequence[Complex], nodes: int) -> Bool[Array | np.ndarray, " intervals"]:
+    """Tell in which intervals between so many nodes any angle changes by more than `MAX_TURN`: by the least cosine."""
+    if not turns:
+        return np.zeros(nodes - 1, bool)
+    xp = namespace(*turns[0])
+    least: Any = np.ones(nodes - 1)
+    for turn in turns:
+        real, imag = map(xp.asarray, turn)
+        least = xp.minimum(least, real[1:] * real[:-1] + imag[1:] * imag[:-1])
+    return least < math.cos(MAX_TURN)
 
 
 class _Bounds(NamedTuple):
@@ -182,6 +200,29 @@ def certify_poses(
         from_below &= bounded(below, distance)
         from_above &= bounded(above, 1 - distance)
     return PoseCertificates((from_below, from_above), (after_limit, before_limit))
+
+
+def certify_nodes(line: LineCertificate, groups: int) -> PoseCertificates:
+    """Tell to which nodes the motion passes over a full turn, by the table of its line, of so many groups.
+
+    A node is judged as a pose at the far end of the interval that leads to it; the assembled pose, at both ends of the
+    line, is where the motion begins.
+    """
+    from_below, from_above, after_limit, before_limit = (row > 0 for row in line.table[:4])
+    for below, above, curvature, monotone in (line.table[4 + 4 * k : 8 + 4 * k] for k in range(groups)):
+        bound = jnp.minimum(below, above) - 0.125 * curvature
+        from_below &= jnp.where(monotone > 0, below, bound) > LEAST_DISCRIMINANT
+        from_above &= jnp.where(monotone > 0, above, bound) > LEAST_DISCRIMINANT
+    block_below, block_above = line.blocked
+    number = np.arange(len(from_below))
+    here, limited = np.ones(1, bool), jnp.reshape(line.limited, 1)
+    return PoseCertificates(
+        (
+            jnp.concatenate([here, from_below | (number < block_above)]),
+            jnp.concatenate([from_above | (number > block_below), here]),
+        ),
+        (jnp.concatenate([after_limit, limited]), jnp.concatenate([limited, before_limit])),
+    )
 
 
 def at_intervals(

@@ -6,9 +6,11 @@ NumPy. Where the geometry is traced, the line is part of the program.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import jax
+import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float
 
@@ -18,11 +20,12 @@ from jaxkin.solve.closed_form.assembled_axes import AssembledAxes
 from jaxkin.solve.closed_form.branch_certificate import (
     LEAST_DISCRIMINANT,
     NodeRows,
+    are_steep,
     certify_line,
-    is_steep,
     surely_passes,
     unwrapped,
 )
+from jaxkin.solve.closed_form.complex_numbers import Complex, argument
 from jaxkin.solve.closed_form.group_formulas import GroupFormula, group_formulas
 from jaxkin.solve.closed_form.solve_groups import Solved, assembled_roots, solve_once
 from jaxkin.solve.system.loop_system import LoopSystem
@@ -122,6 +125,17 @@ def unknown_angles(system: LoopSystem) -> list[int]:
     ]
 
 
+def principal_angles(solved: Solved, columns: Sequence[int]) -> Float[Array, "columns poses"]:
+    """Compute angles from their turns in a program, radians in (-pi, pi].
+
+    All are in one array: so they are a few operations of the program, not a few each.
+    """
+    turns = [jax.tree.map(jnp.asarray, solved.coordinates[column].turn) for column in columns]
+    if not turns:
+        return jnp.zeros((0, *solved.discriminants[0].shape))
+    return jnp.asarray(argument(Complex(*(jnp.stack(parts) for parts in zip(*turns, strict=True)))))
+
+
 def line_and_poses(
     system: LoopSystem,
     axes: AssembledAxes,
@@ -133,47 +147,70 @@ def line_and_poses(
     Nodes and poses are solved together: a program holds the formulas once for both.
     """
     xp = namespace(axes.centre, nodes, values)
-    roots = xp.stack([xp.ravel(root)[:1] for root in assembled_roots(system, axes)])
-    signs = xp.sign(roots)
-    together = solve_once(system, axes, signs, xp.concatenate([nodes, values])[None])
+    roots, together = solve_on_branch(system, axes, xp.concatenate([nodes, values]))
 
     def cut(begin: int, end: int | None) -> Solved:
         # what is the same for all inputs has one entry
         return jax.tree.map(lambda row: row if row.shape[0] == 1 else row[begin:end], together)
 
-    return _line(system, nodes, roots, signs, cut(0, NODES)), cut(NODES, None)
+    return _line(system, nodes, roots, cut(0, NODES)), cut(NODES, None)
+
+
+def solve_on_branch(
+    system: LoopSystem, axes: AssembledAxes, inputs: Float[Array | np.ndarray, " inputs"]
+) -> tuple[Float[Array | np.ndarray, "groups 1"], Solved]:
+    """Compute the signed roots in the assembled pose, and poses on its branch."""
+    xp = namespace(axes.centre, inputs)
+    roots = xp.stack([xp.ravel(root)[:1] for root in assembled_roots(system, axes)])
+    return roots, solve_once(system, axes, xp.sign(roots), inputs[None])
+
+
+class LineStart(NamedTuple):
+    """What is known of a line where the assembled pose is."""
+
+    begins: Bool[Array | np.ndarray, ""]
+    """As that of the line."""
+    coordinates: Float[Array | np.ndarray, " columns"]
+    """Of all columns, radians in (-pi, pi] and characteristic lengths: zero, unless dimensions were changed."""
+
+
+def line_start(roots: Float[Array | np.ndarray, "groups 1"], solved: Solved, node: int) -> LineStart:
+    """Judge where a line begins, from the signed roots in the assembled pose, which is a node of those solved."""
+    xp = namespace(roots)
+    start = xp.stack([coordinate.at(node) for coordinate in solved.coordinates])
+    is_open = xp.max(xp.abs(start)) > CLOSED_START
+    clear = xp.min(xp.abs(roots)) > LEAST_ASSEMBLED_ROOT
+    movable = xp.min(xp.stack([each[node] for each in solved.discriminants])) > LEAST_DISCRIMINANT
+    return LineStart(movable & (clear | ~is_open), start)
+
+
+def steep_intervals(system: LoopSystem, solved: Solved, nodes: int) -> Bool[Array | np.ndarray, " intervals"]:
+    """Tell in which intervals between nodes an unknown angle turns too far to be unwrapped."""
+    return are_steep([solved.coordinates[column].turn for column in unknown_angles(system)], nodes)
 
 
 def _line(
     system: LoopSystem,
     nodes: Float[Array | np.ndarray, " nodes"],
-    roots: Array | np.ndarray,
-    signs: Array | np.ndarray,
+    roots: Float[Array | np.ndarray, "groups 1"],
     solved: Solved,
 ) -> InputLine:
     """Read the line from its nodes, which are solved, and from the signed roots in the assembled pose."""
     first, last = ends(system)
     xp = namespace(roots, nodes)
-    angles = unknown_angles(system)
-    turns = [solved.coordinates[column].turn for column in angles]
-    nearby, steep = unwrapped(turns), np.zeros(NODES - 1, bool)
-    for turn in turns:
-        steep = steep | is_steep(turn)
+    angles, steep = unknown_angles(system), steep_intervals(system, solved, NODES)
+    nearby = unwrapped([solved.coordinates[column].turn for column in angles])
     discriminants: NodeRows = solved.discriminants
     if xp is np:
         discriminants, nearby = np.stack(discriminants), np.array(nearby).reshape(-1, NODES)
         passes = certify_line(discriminants, steep, first, last).passes
     else:
         passes = surely_passes(discriminants, steep)
-    start = xp.stack([coordinate.at(first) for coordinate in solved.coordinates])
-    is_open = xp.max(xp.abs(start)) > CLOSED_START
-    clear = xp.min(xp.abs(roots)) > LEAST_ASSEMBLED_ROOT
-    movable = xp.min(xp.stack([each[first] for each in discriminants])) > LEAST_DISCRIMINANT
-    begins = movable & (clear | ~is_open)
+    begins, start = line_start(roots, solved, first)
     # the line is unwrapped from its first node on
     assembled = start[np.array(angles, int)]
     begun, ended = (
         TURN * xp.round((xp.array([row[node] for row in nearby], float) - assembled) / TURN) for node in (first, last)
     )
     windings = Windings(nodes[0], nodes[1] - nodes[0], nearby, begun, ended)
-    return InputLine(signs, begins, passes, discriminants, steep, windings)
+    return InputLine(xp.sign(roots), begins, passes, discriminants, steep, windings)

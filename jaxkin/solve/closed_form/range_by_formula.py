@@ -14,10 +14,9 @@ computed at nodes. Angles are unwrapped along the nodes, too.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import lax
@@ -27,8 +26,7 @@ from jaxkin.geometry.trig import TURN
 from jaxkin.solve.closed_form.arithmetic import namespace
 from jaxkin.solve.closed_form.assembled_axes import AssembledAxes
 from jaxkin.solve.closed_form.branch_certificate import at_intervals, certify_line, certify_poses
-from jaxkin.solve.closed_form.complex_numbers import Complex, argument
-from jaxkin.solve.closed_form.coordinate import REST
+from jaxkin.solve.closed_form.coordinate import REST, FormulaCoordinates
 from jaxkin.solve.closed_form.input_line import (
     NODES,
     InputLine,
@@ -37,6 +35,7 @@ from jaxkin.solve.closed_form.input_line import (
     ends,
     line_and_poses,
     nodes_to_either_side,
+    principal_angles,
     turn_nodes,
     unknown_angles,
 )
@@ -124,24 +123,42 @@ def _judged(
     else:
         expected, passed, crossed = _reached(system, line, values, solved.discriminants)
         passed, known = passed & line.begins, line.begins & (passed | crossed)
-    angles = unknown_angles(system)
-    rows = [REST.value if k in angles else each.value for k, each in enumerate(solved.coordinates)]
-    if angles:
-        # all angles in one array: so they are a few operations of the program, not a few each
-        turns = [jax.tree.map(jnp.asarray, solved.coordinates[column].turn) for column in angles]
-        principal = argument(Complex(*(jnp.stack(parts) for parts in zip(*turns, strict=True))))
-        found = principal + TURN * jnp.round((expected - principal) / TURN)
-        for column, row in zip(angles, found, strict=True):
-            rows[column] = row
-    rows = [jnp.asarray(row) for row in rows]
+    angles: dict[int, Array] = {}
+    if columns := unknown_angles(system):
+        principal = principal_angles(solved, columns)
+        angles = dict(zip(columns, principal + TURN * jnp.round((expected - principal) / TURN), strict=True))
+    found = FoundAngles(angles, passed, known)
+    return judge(system, axes, jnp.asarray(line.signs), found, solved.coordinates, tolerance)
 
-    residual = jnp.asarray(residual_norm(system, axes, solved.coordinates))
+
+class FoundAngles(NamedTuple):
+    """What is known of solved poses beside their turns: angles, and whether the motion leads there."""
+
+    angles: Mapping[int, Float[Array, " poses"]]
+    """All unknown angles by column, with their full turns, radians."""
+    passed: Bool[Array, " poses"]
+    """To which poses the motion leads."""
+    known: Bool[Array | np.ndarray, " poses"]
+    """Of which poses that is known, whether it does or there surely is a limit before them."""
+
+
+def judge(
+    system: LoopSystem,
+    axes: AssembledAxes,
+    signs: Float[Array, "groups 1"],
+    found: FoundAngles,
+    coordinates: FormulaCoordinates,
+    tolerance: ClosureTolerance,
+) -> FormulaPoses:
+    """Find the statuses of solved poses by their residuals too, and put their coordinates together."""
+    rows = [found.angles.get(k, REST.value if each is None else each.value) for k, each in enumerate(coordinates)]
+    residual = jnp.asarray(residual_norm(system, axes, coordinates))
     closes = residual <= tolerance.max_residual
-    status = classify(residual, ~closes, passed, tolerance.max_residual)
-    status = jnp.where(closes & ~known, Status.STALLED.value, status)
+    status = classify(residual, ~closes, found.passed, tolerance.max_residual)
+    status = jnp.where(closes & ~found.known, Status.STALLED.value, status)
     sharp = jnp.maximum(rounding_residual(residual.dtype, CLOSED_ROUNDINGS), tolerance.target_residual)
-    proven = jnp.all(passed & (residual <= jnp.minimum(tolerance.max_residual, sharp)))
-    return FormulaPoses(tuple(rows), status, residual, jnp.asarray(line.signs), proven)
+    proven = jnp.all(found.passed & (residual <= jnp.minimum(tolerance.max_residual, sharp)))
+    return FormulaPoses(tuple(map(jnp.asarray, rows)), status, residual, signs, proven)
 
 
 class _AtNodes(NamedTuple):

@@ -6,7 +6,7 @@ Only the program of the displacements is differentiated. Where the numbers are k
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, partial
 
 import jax
 import jax.numpy as jnp
@@ -19,12 +19,14 @@ from jaxkin.solve.closed_form.assembled_axes import AssembledAxes, assembled_axe
 from jaxkin.solve.closed_form.formula_displacements import displacements_by_formula, joint_displacements
 from jaxkin.solve.closed_form.group_formulas import why_not_all
 from jaxkin.solve.closed_form.input_line import InputLine
+from jaxkin.solve.closed_form.poses_on_grid import find_poses_on_grid
 from jaxkin.solve.closed_form.range_by_formula import (
     FormulaPoses,
     find_poses_and_line,
     find_poses_by_formula,
     line_of,
 )
+from jaxkin.solve.closed_form.turn_grid import turn_grid
 from jaxkin.solve.correctors.nearest_pose import NearestPoses, nearest_poses
 from jaxkin.solve.device import on_cpu
 from jaxkin.solve.execution.compiler import count_trace, jit_options
@@ -78,9 +80,8 @@ def solve(
         # axes of traced joints are computed once, for the poses and for the displacements that are differentiated
         own = axes if axes is not None and not traced(joints) else assembled_axes(system, joints)
         held = lax.stop_gradient(own) if axes is None else axes
-        inputs = jnp.asarray(inputs)
-        found = _poses_by_formula(system, held, lax.stop_gradient(inputs), numbers[2], line)
-        return displacements_by_formula(system, joints, inputs, found, own), _outcome(found)
+        found = _poses_by_formula(system, held, inputs, numbers[2], line)
+        return displacements_by_formula(system, joints, jnp.asarray(inputs), found, own), _outcome(found)
     if by_formula and axes is not None:
         line = line or line_of(system, axes, np.asarray(numbers[1]))
         found = _formula_poses_program()(system, axes, *numbers[1:], line)
@@ -161,13 +162,19 @@ def _poses_by_formula(
 ) -> FormulaPoses:
     """Find poses by formulas; where the geometry is traced, there is no `line` yet."""
     count_trace()
+    grid = None
+    if line is None and system.periodic and isinstance(inputs, np.ndarray):
+        grid = turn_grid(inputs[0])
+    if grid is not None:
+        find_on_grid = partial(find_poses_on_grid, system, grid)
+        return by_formulas_in_groups(find_on_grid)(axes, tolerance)
 
     def find(axes: AssembledAxes, inputs: Array, tolerance: ClosureTolerance, line: InputLine | None) -> FormulaPoses:
         if line is None:
             return find_poses_and_line(system, axes, inputs, tolerance)
         return find_poses_by_formula(system, axes, line, inputs, tolerance)
 
-    return by_formulas_in_groups(find)(axes, inputs, tolerance, line)
+    return by_formulas_in_groups(find)(axes, lax.stop_gradient(jnp.asarray(inputs)), tolerance, line)
 
 
 def _poses_of_all_designs(

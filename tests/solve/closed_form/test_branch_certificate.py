@@ -5,7 +5,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from jaxkin.solve.closed_form.branch_certificate import MAX_TURN, certify_line, is_steep, surely_passes, unwrapped
+from jaxkin.solve.closed_form.branch_certificate import MAX_TURN, are_steep, certify_line, surely_passes, unwrapped
 from jaxkin.solve.closed_form.complex_numbers import Complex, rough_argument, turn_by
 from jaxkin.solve.lockstep import computed_once, in_lockstep
 
@@ -32,7 +32,7 @@ def test_angles_are_unwrapped_whatever_way_they_turn(start, turns):
 
 def test_steps_are_steep_from_the_largest_turn_on():
     changes = np.array([0.9, 1.0, -0.9, -1.0, 2.0]) * MAX_TURN * np.array([1, 1.01, 1, 1.01, 1])
-    found = is_steep(turn_by(np.concatenate([[0.0], np.cumsum(changes)])))
+    found = are_steep([turn_by(np.concatenate([[0.0], np.cumsum(changes)]))], 6)
     np.testing.assert_array_equal(found, [False, True, False, True, True])
 
 
