@@ -17,5 +17,5 @@
 | swept volumes | `signed_distance`, `isosurface` |
 | gears | `teeth`, `tooth_rows`, `outline` |
 
-`triangles`, `components`, `characteristic_length`, `trig` and `root` serve several of these.
+`triangles`, `components`, `characteristic_length`, `trig`, `root` and `affine` serve several of these.
 """

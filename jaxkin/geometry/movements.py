@@ -13,6 +13,7 @@ paper.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import jax.numpy as jnp
@@ -23,7 +24,7 @@ from jaxkin.geometry.figures import ROD, BallFigure, BoxFigure, CylinderFigure, 
 from jaxkin.geometry.movement import AngleLock, InvariantFeature, Movement
 from jaxkin.geometry.patches import Followed
 from jaxkin.geometry.rigid import Rigid
-from jaxkin.geometry.trig import cos_sin
+from jaxkin.geometry.trig import cos_and_sin
 
 
 def _translate(axis: int, coordinate: int) -> ElementaryMotion:
@@ -218,24 +219,24 @@ def displaced(
     """
     point = None if curve is None else curve.spline(jnp).at(*q, xp=jnp)
     for element in MOVEMENTS[movement].elements[:: -1 if back else 1]:
-        how_far = amount(element, q[element.coordinate], pitch, point, cos_sin)
+        how_far = amount(element, q[element.coordinate], pitch, point, cos_and_sin)
         columns = displaced_columns([frame[:, column] for column in range(4)], element.axis, *how_far, back)
         frame = jnp.stack(jnp.broadcast_arrays(*columns), axis=1)
     return frame
 
 
 def displace_point(
-    point: Float[Array, "3 #poses"],
+    rows: tuple[Float[Array, "*#poses"], Float[Array, "*#poses"], Float[Array, "*#poses"]],
     movement: str,
-    q: Float[Array, "k poses"],
+    q: Sequence[Float[Array, " poses"]],
     pitch: Float[Array, ""] | float,
     curve: Followed | None,
     back: bool,
-) -> Float[Array, "3 poses"]:
-    """Displace a point by a movement T, or `back` by its inverse, in the axes of the frame, as in `displaced`."""
+) -> tuple[Float[Array, "*#poses"], Float[Array, "*#poses"], Float[Array, "*#poses"]]:
+    """Displace a point (x, y, z) by a movement T, or `back` by its inverse, in the axes of the frame, as `displaced`
+    does."""
     followed = None if curve is None else curve.spline(jnp).at(*q, xp=jnp)
-    rows = tuple(point)
     for element in MOVEMENTS[movement].elements[:: 1 if back else -1]:
-        how_far = amount(element, q[element.coordinate], pitch, followed, cos_sin)
+        how_far = amount(element, q[element.coordinate], pitch, followed, cos_and_sin)
         rows = displaced_point(rows, element.axis, *how_far, back)
-    return jnp.stack(jnp.broadcast_arrays(*rows))
+    return rows

@@ -13,7 +13,7 @@ from jaxtyping import Array, Bool, Float
 
 from jaxkin._traced import inside_trace, traced
 from jaxkin.geometry.chains import coordinate_ranges
-from jaxkin.geometry.movements import displace_point, displaced
+from jaxkin.geometry.movements import displaced
 from jaxkin.geometry.rigid import Rigid, as_matrices, as_rigid, inverse, product
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.host_transforms import host_transforms
@@ -82,44 +82,10 @@ def _numbers_of(q: Float[Array, "poses _"]) -> tuple[Float[Array, "poses _"], Bo
     return jnp.where(finite[:, None], q, 0.0), finite
 
 
-@partial(jax.jit, static_argnums=2)
-def point_path(
-    linkage: Linkage, displacements: JointDisplacements, part: str, point: Float[Array, "3"]
-) -> Float[Array, "poses 3"]:
-    """Compute the path of a point of a part, given where it is in the assembled pose, in the world.
-
-    The point is carried from joint to joint down to the fixed parts: that takes a fraction of the operations of the
-    displacements of the parts, and of their derivatives.
-    """
-    hangs = {part: (parent, joint, sign) for part, parent, joint, sign in linkage.structure.tree}
-    here, poses = point[:, None], displacements[0].shape[0]
-    known = jnp.ones(poses, bool)
-    while part in hangs:
-        part, joint, sign = hangs[part]
-        q, finite = _numbers_of(jnp.asarray(displacements[joint]))
-        here, known = _displace_by_joint(linkage.joints[joint], q, here, sign), known & finite
-    return jnp.where(known, here, jnp.nan).T
-
-
 @jax.jit
 def moved_point(transforms: Float[Array, "poses 4 4"], point: Float[Array, "3"]) -> Float[Array, "poses 3"]:
     """Apply transforms of a part, or derivatives of these, to a point of the part in the assembled pose."""
     return jnp.einsum("pij,j->pi", transforms[:, :3, :3], point) + transforms[:, :3, 3]
-
-
-def _displace_by_joint(joint: Joint, q: Float[Array, "poses _"], point: Float[Array, "3 #poses"], sign: int) -> Array:
-    """Apply the displacement of a joint to a point, or its inverse where `sign` is negative."""
-    numbered = enumerate(zip(joint.movements, coordinate_ranges(joint.movements), strict=True))
-    steps = [(movement, frame, q[:, own.start : own.stop].T) for frame, (movement, own) in numbered]
-    enter, leave = (joint.frames_2, joint.frames_1) if sign > 0 else (joint.frames_1, joint.frames_2)
-    for movement, frame, own in reversed(steps) if sign > 0 else steps:
-        before, after = (jnp.asarray(side[frame], q.dtype) for side in (enter, leave))
-        curve = joint.curves[frame] if joint.curves else None
-        # products of matrices, whose derivatives by the frames add up all poses at once
-        local = before[:3, :3].T @ (point - before[:3, 3:])
-        local = displace_point(local, movement, own, jnp.asarray(joint.pitch, q.dtype), curve, back=sign < 0)
-        point = after[:3, :3] @ local + after[:3, 3:]
-    return point
 
 
 def loop_motion(

@@ -23,7 +23,8 @@ from jaxkin._traced import traced
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.pose import is_rigid
 from jaxkin.linkage.coordinates import coordinate
-from jaxkin.linkage.joint_motion import moved_point, part_transforms, point_path
+from jaxkin.linkage.joint_motion import moved_point, part_transforms
+from jaxkin.linkage.point_path import point_path
 from jaxkin.mechanism.joint_limits import Breach, breaches, excesses, first_within, limit_report
 from jaxkin.mechanism.pose_error import check
 from jaxkin.mobility.infeasible_drive import dead_point, undriven_freedoms

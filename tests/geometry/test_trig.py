@@ -6,7 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from jaxkin.geometry.trig import angle, cos_sin
+from jaxkin.geometry.trig import angle, cos_and_sin, cos_sin, known_cos_and_sin
 
 EPS = np.finfo(float).eps
 compiled = jax.jit(cos_sin)
@@ -48,10 +48,15 @@ def test_of_no_finite_angle_there_is_none():
     assert bool(jnp.all(jnp.isnan(cos) & jnp.isnan(sin)))
 
 
-def test_derivatives_are_those_of_cosine_and_sine():
-    def both(x):
-        return cos_sin(x[None])[:, 0]
-
+@pytest.mark.parametrize(
+    "both",
+    [
+        lambda x: cos_sin(x[None])[:, 0],
+        lambda x: jnp.stack(cos_and_sin(x)),
+        lambda x: jnp.stack(known_cos_and_sin(x, (jnp.cos(2.3), jnp.sin(2.3)))),
+    ],
+)
+def test_derivatives_are_those_of_cosine_and_sine(both):
     x = jnp.asarray(2.3)
     once, twice = jax.jit(jax.jacfwd(both))(x), jax.jit(jax.jacrev(jax.jacfwd(both)))(x)
     np.testing.assert_allclose(once, [-math.sin(2.3), math.cos(2.3)], atol=EPS)

@@ -58,9 +58,7 @@ def test_robots_stand_closed_with_the_mobility_of_their_motors(folder, name):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=[pytest.mark.study] * (name in ("cassie_like", "digit_like"))) for name in ROBOTS]
-)
+@pytest.mark.parametrize("name", ROBOTS)
 def test_all_motors_sweep_as_the_file_says(folder, name):
     path, assembly = robot(folder, name)
     mechanism = assembly.mechanism()

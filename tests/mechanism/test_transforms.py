@@ -10,6 +10,7 @@ import pytest
 import jaxkin as jk
 from jaxkin.linkage import joint_motion
 from jaxkin.linkage.joint_motion import part_transforms
+from jaxkin.linkage.point_path import point_path
 
 POINTS = {"A": (0.0, 0.0, 0.0), "B": (31.0, 7.0, -2.0), "C": (52.0, 43.0, 5.0)}  # mm
 AXES = {"A": (1.0, 2.0, 3.0), "B": (-1.0, 0.3, 2.0), "C": (0.2, 1.0, -0.4)}
@@ -125,7 +126,7 @@ def test_a_point_is_carried_as_its_part_is_displaced(fixed, part):
     point = np.array([20.0, -7.0, 11.0])
 
     def carried(linkage, q):
-        return joint_motion.point_path(linkage, q, part, jnp.asarray(point))
+        return point_path(linkage, q, part, jnp.asarray(point))
 
     def displaced(linkage, q):
         found = part_transforms(linkage, q)[mechanism.parts.index(part)]
