@@ -15,8 +15,8 @@ from jaxkin.linkage.first_order import Columns
 from jaxkin.solve.execution.known_numbers import Outcome
 from jaxkin.solve.status import SEVERITY, Status, closes_before_limits, of_severity, severity
 
-GroupSolution = tuple[Float[Array, "_ _"], Outcome]
-"""Displacements of the columns of a loop group, and what became of the poses."""
+GroupSolution = tuple[Float[Array, "_ _"] | list[Float[Array, " _"]], Outcome]
+"""Displacements of the columns of a loop group, one row each, and what became of the poses."""
 
 
 class DisplacementSources(NamedTuple):
@@ -75,7 +75,7 @@ def collect(
             rows = [
                 jnp.where(follows, given[each], lax.stop_gradient(given[each]))
                 if each in given
-                else (coordinates[columns.index(each), :poses] if each in columns else 0.0)
+                else (coordinates[columns.index(each)][:poses] if each in columns else 0.0)
                 for each in own
             ]
             rows = [jnp.broadcast_to(row, (poses,)) for row in rows]

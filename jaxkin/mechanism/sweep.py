@@ -153,8 +153,8 @@ def _of_least_residual(
         if loop_group.given is None:
             continue
         system, columns, joints = loop_group.given
-        zeros = jnp.zeros_like(rows[:1])
-        begun = [rows[loop_group.columns.index(each)] if each in loop_group.columns else zeros[0] for each in columns]
+        zeros = jnp.zeros_like(rows[0])
+        begun = [rows[loop_group.columns.index(each)] if each in loop_group.columns else zeros for each in columns]
         poses, status, residual_norm = least_residual(
             system, joints, loop_group.joints, jnp.stack(begun), outcome.status, asked.max_residual
         )

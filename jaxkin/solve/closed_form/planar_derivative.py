@@ -8,7 +8,7 @@ formula, or in poses that may be singular, are found with least norm (`planar_le
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import jax.numpy as jnp
@@ -46,22 +46,24 @@ def planar_slopes(
     d_axes: AssembledAxes | None,
     d_inputs: Float[Array, "driven poses"],
     *,
+    turns: Mapping[int, Complex] | None = None,
     regular: bool = True,
 ) -> list[Float[Array, " poses"]]:
     """Compute the derivatives of all coordinates of closed poses, along derivatives of the axes and of the inputs.
 
-    `rows` are the coordinates, radians and characteristic lengths; `d_axes` is None where the axes rest. In `regular`
-    poses groups with a formula have its derivatives, which are zero at a limit, where the equations are singular. All
-    others have those of least norm. Linear in derivatives, and differentiable again in all else.
+    `rows` are the coordinates, radians and characteristic lengths, `turns` those of columns that turn as complex
+    numbers, where they are known; `d_axes` is None where the axes rest. In `regular` poses groups with a formula have
+    its derivatives, which are zero at a limit, where the equations are singular. All others have those of least norm.
+    Linear in derivatives, and differentiable again in all else.
     """
     table, poses = chain_tables(system), d_inputs.shape[1:]
     found: dict[int, Any] = dict(zip(system.driven, d_inputs, strict=True))
     moving = [(row, chain) for chain in range(len(system.loops)) for row in moving_rows(system, chain)]
     turning = sorted({int(table.column[place]) for place in moving if table.turn[place]})
-    turns: dict[int, Complex] = {}
-    if turning:  # all in one array: a few operations of the program, not a few each
+    if turns is None and turning:  # all in one array: a few operations of the program, not a few each
         cos, sin = cos_sin(jnp.stack([rows[column] for column in turning]))
         turns = {column: Complex(cos[n], sin[n]) for n, column in enumerate(turning)}
+    turns = turns or {}
     for block, formula in zip(equation_blocks(system), group_formulas(system), strict=True):
         loops: dict[int, LoopTwists] = {}
         for chain in sorted({row // IN_SUBGROUP for row in block.rows}):

@@ -41,6 +41,7 @@ from jaxkin.solve.closed_form.input_line import (
 )
 from jaxkin.solve.closed_form.solve_groups import Solved, residual_norm, solve_once
 from jaxkin.solve.lockstep import any_in_lockstep
+from jaxkin.solve.range.groups import in_groups
 from jaxkin.solve.status import (
     CLOSED_ROUNDINGS,
     ClosureTolerance,
@@ -50,12 +51,20 @@ from jaxkin.solve.status import (
 )
 from jaxkin.solve.system.loop_system import LoopSystem
 
+LONG_RANGE = 2**14
+"""Number of poses above which poses, and their derivatives, are computed in groups on CPUs: what that needs of 100,000
+poses is read from memory in place of the cache, which takes two to three times as long."""
+POSE_GROUP = 4096
+"""Number of poses of such a group."""
+
 
 class FormulaPoses(NamedTuple):
     """What the formulas say about a range, without derivatives."""
 
     rows: tuple[Float[Array, " poses"], ...]
     """The coordinates of every column, radians and characteristic lengths; zero for free balls."""
+    turns: dict[int, Complex]
+    """Of a planar system the coordinates that turn, by column, as complex numbers of absolute value 1."""
     status: Int[Array, " poses"]
     residual_norm: Float[Array, " poses"]
     """Square root of Eq. 12, lengths over the characteristic length."""
@@ -86,8 +95,12 @@ def find_poses_and_line(
     """Find the poses, as `find_poses_by_formula`, of axes whose line is not known yet."""
     axes, inputs = lax.stop_gradient((axes, inputs))
     values = scaled_inputs(system, axes, inputs)[0]
-    line, solved = line_and_poses(system, axes, _nodes(system, values), values)
-    return _judged(system, axes, line, values, solved, tolerance)
+    nodes = _nodes(system, values)
+    if len(values) > LONG_RANGE:
+        line = line_and_poses(system, axes, nodes, jnp.zeros(0))[0]
+        return _on_line(system, axes, line, values, tolerance)
+    line, solved = line_and_poses(system, axes, nodes, values)
+    return put_together(line.signs, _judged(system, axes, line, values, solved, tolerance))
 
 
 def find_poses_by_formula(
@@ -104,8 +117,40 @@ def find_poses_by_formula(
     """
     axes, line, inputs = lax.stop_gradient((axes, line, inputs))
     values = scaled_inputs(system, axes, inputs)[0]
-    solved = solve_once(system, axes, jnp.asarray(line.signs), values[None])
-    return _judged(system, axes, line, values, solved, tolerance)
+    return _on_line(system, axes, line, values, tolerance)
+
+
+def _on_line(
+    system: LoopSystem,
+    axes: AssembledAxes,
+    line: InputLine | PassedLine,
+    values: Float[Array, " poses"],
+    tolerance: ClosureTolerance,
+) -> FormulaPoses:
+    """Solve and judge poses of a line, long ranges in groups."""
+
+    def found(values: Float[Array, " group"]) -> JudgedPoses:
+        solved = solve_once(system, axes, jnp.asarray(line.signs), values[None])
+        return _judged(system, axes, line, values, solved, tolerance)
+
+    judged = in_groups(found, values, POSE_GROUP) if len(values) > LONG_RANGE else found(values)
+    return put_together(line.signs, judged)
+
+
+class JudgedPoses(NamedTuple):
+    """The fields of `FormulaPoses` that have an entry a pose, and whether each pose is proven."""
+
+    rows: tuple[Float[Array, " poses"], ...]
+    turns: dict[int, Complex]
+    status: Int[Array, " poses"]
+    residual_norm: Float[Array, " poses"]
+    proven: Bool[Array, " poses"]
+
+
+def put_together(signs: Float[Array | np.ndarray, "groups 1"], judged: JudgedPoses) -> FormulaPoses:
+    """Put poses together with what is the same for all of them."""
+    rows, turns, status, residual, proven = judged
+    return FormulaPoses(rows, turns, status, residual, jnp.asarray(signs), jnp.all(proven))
 
 
 def _judged(
@@ -115,7 +160,7 @@ def _judged(
     values: Float[Array, " poses"],
     solved: Solved,
     tolerance: ClosureTolerance,
-) -> FormulaPoses:
+) -> JudgedPoses:
     """Judge solved poses by the line: their statuses, and angles with their full turns."""
     if isinstance(line, PassedLine):
         expected = _at_nodes(system, line.windings, values).expected(line.windings)
@@ -128,7 +173,7 @@ def _judged(
         principal = principal_angles(solved, columns)
         angles = dict(zip(columns, principal + TURN * jnp.round((expected - principal) / TURN), strict=True))
     found = FoundAngles(angles, passed, known)
-    return judge(system, axes, jnp.asarray(line.signs), found, solved.coordinates, tolerance)
+    return judge(system, axes, found, solved.coordinates, tolerance)
 
 
 class FoundAngles(NamedTuple):
@@ -145,20 +190,23 @@ class FoundAngles(NamedTuple):
 def judge(
     system: LoopSystem,
     axes: AssembledAxes,
-    signs: Float[Array, "groups 1"],
     found: FoundAngles,
     coordinates: FormulaCoordinates,
     tolerance: ClosureTolerance,
-) -> FormulaPoses:
+) -> JudgedPoses:
     """Find the statuses of solved poses by their residuals too, and put their coordinates together."""
-    rows = [found.angles.get(k, REST.value if each is None else each.value) for k, each in enumerate(coordinates)]
+    every = [REST if each is None else each for each in coordinates]
+    rows = [jnp.asarray(found.angles.get(k, each.value)) for k, each in enumerate(every)]
     residual = jnp.asarray(residual_norm(system, axes, coordinates))
     closes = residual <= tolerance.max_residual
     status = classify(residual, ~closes, found.passed, tolerance.max_residual)
     status = jnp.where(closes & ~found.known, Status.STALLED.value, status)
     sharp = jnp.maximum(rounding_residual(residual.dtype, CLOSED_ROUNDINGS), tolerance.target_residual)
-    proven = jnp.all(found.passed & (residual <= jnp.minimum(tolerance.max_residual, sharp)))
-    return FormulaPoses(tuple(map(jnp.asarray, rows)), status, residual, signs, proven)
+    proven = found.passed & (residual <= jnp.minimum(tolerance.max_residual, sharp))
+    turning = [k for k, is_length in enumerate(system.is_length) if system.planar and not is_length]
+    turns = {k: every[k].turn for k in turning}
+    turns = jax.tree.map(lambda part: jnp.broadcast_to(part, status.shape), turns)
+    return JudgedPoses(tuple(rows), turns, status, residual, proven)
 
 
 class _AtNodes(NamedTuple):

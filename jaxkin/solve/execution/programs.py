@@ -48,8 +48,8 @@ def solve(
     tolerance: ClosureTolerance,
     axes: AssembledAxes | None = None,
     line: InputLine | None = None,
-) -> tuple[Float[Array, "columns poses"], Outcome]:
-    """Find the displacements of all joints (columns, poses) for given inputs, with status and residual of each pose.
+) -> tuple[Float[Array, "columns poses"] | list[Float[Array, " poses"]], Outcome]:
+    """Find the displacements of all joints, one row a column, for given inputs, with status and residual of each pose.
 
     Inputs and displacements are in radians and in the unit of the mechanism. A program is compiled once for a system,
     the options that it depends on, and a number of poses. `tolerance`, which may be traced, takes the place of
