@@ -17,6 +17,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import lax
@@ -26,6 +27,7 @@ from jaxkin.geometry.trig import TURN
 from jaxkin.solve.closed_form.arithmetic import namespace
 from jaxkin.solve.closed_form.assembled_axes import AssembledAxes
 from jaxkin.solve.closed_form.branch_certificate import at_intervals, certify_line, certify_poses
+from jaxkin.solve.closed_form.complex_numbers import Complex
 from jaxkin.solve.closed_form.coordinate import REST, FormulaCoordinates
 from jaxkin.solve.closed_form.input_line import (
     NODES,
