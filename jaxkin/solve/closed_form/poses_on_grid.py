@@ -30,7 +30,7 @@ from jaxkin.solve.closed_form.input_line import (
     unknown_angles,
 )
 from jaxkin.solve.closed_form.loop_angles import measured_angles, sums_of_loops, with_left_angles
-from jaxkin.solve.closed_form.range_by_formula import FormulaPoses, FoundAngles, judge, put_together
+from jaxkin.solve.closed_form.range_by_formula import FormulaPoses, FoundAngles, judge
 from jaxkin.solve.closed_form.turn_grid import TurnGrid
 from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.status import ClosureTolerance
@@ -89,4 +89,4 @@ def find_poses_on_grid(
     found = lax.cond(any_in_lockstep(~simply), parts_of_it, whole_line)
     coordinates = [jax.tree.map(grid.poses_of, each) for each in solved.coordinates]
     coordinates[driven] = coordinates[driven]._replace(known=jnp.asarray(grid.values))
-    return put_together(jnp.sign(roots), judge(system, axes, found, coordinates, tolerance))
+    return judge(system, axes, jnp.sign(roots), found, coordinates, tolerance)

@@ -102,7 +102,7 @@ def find_poses_and_line(
         line = line_and_poses(system, axes, nodes, jnp.zeros(0))[0]
         return _on_line(system, axes, line, values, tolerance)
     line, solved = line_and_poses(system, axes, nodes, values)
-    return put_together(line.signs, _judged(system, axes, line, values, solved, tolerance))
+    return _judged(system, axes, line, values, solved, tolerance)
 
 
 def find_poses_by_formula(
@@ -131,28 +131,18 @@ def _on_line(
 ) -> FormulaPoses:
     """Solve and judge poses of a line, long ranges in groups."""
 
-    def found(values: Float[Array, " group"]) -> JudgedPoses:
+    def found(values: Float[Array, " group"]) -> FormulaPoses:
         solved = solve_once(system, axes, jnp.asarray(line.signs), values[None])
         return _judged(system, axes, line, values, solved, tolerance)
 
-    judged = in_groups(found, values, POSE_GROUP) if len(values) > LONG_RANGE else found(values)
-    return put_together(line.signs, judged)
+    def of_group(values: Float[Array, " group"]):
+        rows, turns, status, residual, _, proven = found(values)
+        return rows, turns, status, residual, jnp.broadcast_to(proven, values.shape)
 
-
-class JudgedPoses(NamedTuple):
-    """The fields of `FormulaPoses` that have an entry a pose, and whether each pose is proven."""
-
-    rows: tuple[Float[Array, " poses"], ...]
-    turns: dict[int, Complex]
-    status: Int[Array, " poses"]
-    residual_norm: Float[Array, " poses"]
-    proven: Bool[Array, " poses"]
-
-
-def put_together(signs: Float[Array | np.ndarray, "groups 1"], judged: JudgedPoses) -> FormulaPoses:
-    """Put poses together with what is the same for all of them."""
-    rows, turns, status, residual, proven = judged
-    return FormulaPoses(rows, turns, status, residual, jnp.asarray(signs), jnp.all(proven))
+    if len(values) <= LONG_RANGE:
+        return found(values)
+    rows, turns, status, residual, proven = in_groups(of_group, values, POSE_GROUP)
+    return FormulaPoses(rows, turns, status, residual, jnp.asarray(line.signs), jnp.all(proven))
 
 
 def _judged(
@@ -162,7 +152,7 @@ def _judged(
     values: Float[Array, " poses"],
     solved: Solved,
     tolerance: ClosureTolerance,
-) -> JudgedPoses:
+) -> FormulaPoses:
     """Judge solved poses by the line: their statuses, and angles with their full turns."""
     if isinstance(line, PassedLine):
         expected = _at_nodes(system, line.windings, values).expected(line.windings)
@@ -175,7 +165,7 @@ def _judged(
         principal = principal_angles(solved, columns)
         angles = dict(zip(columns, principal + TURN * jnp.round((expected - principal) / TURN), strict=True))
     found = FoundAngles(angles, passed, known)
-    return judge(system, axes, found, solved.coordinates, tolerance)
+    return judge(system, axes, jnp.asarray(line.signs), found, solved.coordinates, tolerance)
 
 
 class FoundAngles(NamedTuple):
@@ -192,23 +182,23 @@ class FoundAngles(NamedTuple):
 def judge(
     system: LoopSystem,
     axes: AssembledAxes,
+    signs: Float[Array, "groups 1"],
     found: FoundAngles,
     coordinates: FormulaCoordinates,
     tolerance: ClosureTolerance,
-) -> JudgedPoses:
+) -> FormulaPoses:
     """Find the statuses of solved poses by their residuals too, and put their coordinates together."""
-    every = [REST if each is None else each for each in coordinates]
-    rows = [jnp.asarray(found.angles.get(k, each.value)) for k, each in enumerate(every)]
+    rows = [found.angles.get(k, REST.value if each is None else each.value) for k, each in enumerate(coordinates)]
     residual = jnp.asarray(residual_norm(system, axes, coordinates))
     closes = residual <= tolerance.max_residual
     status = classify(residual, ~closes, found.passed, tolerance.max_residual)
     status = jnp.where(closes & ~found.known, Status.STALLED.value, status)
     sharp = jnp.maximum(rounding_residual(residual.dtype, CLOSED_ROUNDINGS), tolerance.target_residual)
-    proven = found.passed & (residual <= jnp.minimum(tolerance.max_residual, sharp))
-    turning = [k for k, is_length in enumerate(system.is_length) if system.planar and not is_length]
-    turns = {k: every[k].turn for k in turning}
-    turns = jax.tree.map(lambda part: jnp.broadcast_to(part, status.shape), turns)
-    return JudgedPoses(tuple(rows), turns, status, residual, proven)
+    proven = jnp.all(found.passed & (residual <= jnp.minimum(tolerance.max_residual, sharp)))
+    each = {k: own for k, own in enumerate(coordinates) if system.planar and not system.is_length[k]}
+    turns = {k: (REST if own is None else own).turn for k, own in each.items()}
+    turns = jax.tree.map(lambda part: jnp.broadcast_to(part, residual.shape), turns)
+    return FormulaPoses(tuple(map(jnp.asarray, rows)), turns, status, residual, signs, proven)
 
 
 class _AtNodes(NamedTuple):
