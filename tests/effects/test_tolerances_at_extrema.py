@@ -1,6 +1,7 @@
 """Tolerances where the first order of a measure says nothing."""
 
 import jax
+import jax.numpy as jnp
 import numpy as np
 import pytest
 
@@ -31,8 +32,7 @@ def test_at_an_extremum_the_extremes_show_the_second_order():
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("spread", ["root_sum_of_squares", "standard_deviation"])
-def test_what_has_no_influence_spoils_no_derivative_of_a_spread(spread):
+def test_what_has_no_influence_spoils_no_derivative_of_a_spread():
     """An arm beside the four-bar: the play of its pin counts nothing, and where nothing counts derivatives are zero."""
     arm = jk.revolute("E", "ground", "arm", point=(0.0, 50.0, 0.0), axis=(0.0, 0.0, 1.0))
     mechanism = jk.Mechanism.build(fixed=["ground"], joints=[*fourbar(*LENGTHS).all_joints, arm])
@@ -41,11 +41,11 @@ def test_what_has_no_influence_spoils_no_derivative_of_a_spread(spread):
         def found(crank):
             made, drive = mechanism.with_lengths({CRANK: crank}), {"A": 0.2, "E": 0.0}
             stated = jk.tolerances(made, {COUPLER: 0.05}, measure, drive=drive, clearances=clearances, samples=0)
-            return getattr(stated, spread)
+            return jnp.stack([stated.root_sum_of_squares, stated.standard_deviation])
 
-        return float(jax.grad(found)(LENGTHS[1]))
+        return jax.jit(jax.jacrev(found))(LENGTHS[1])
 
     alone = slope(rocker, {})
-    assert abs(alone) > 1e-6
+    assert np.all(np.abs(alone) > 1e-6)
     np.testing.assert_allclose(slope(rocker, {"E": 0.02}), alone, rtol=1e-12)
-    assert slope(lambda pose: pose.coordinates["E"][0], {"E": 0.02}) == 0.0
+    np.testing.assert_array_equal(slope(lambda pose: pose.coordinates["E"][0], {"E": 0.02}), 0.0)

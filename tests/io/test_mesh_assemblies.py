@@ -34,7 +34,7 @@ def from_stl(step, angle, folder):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("name", EXAMPLES)
+@pytest.mark.parametrize("name", sorted(EXAMPLES))
 def test_the_same_joints_and_the_same_motion(name, tmp_path):
     """To 1e-5 of the size, on a range in which every one of them moves."""
     example = EXAMPLES[name]

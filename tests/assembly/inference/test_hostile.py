@@ -79,10 +79,10 @@ def test_parts_that_are_excluded_are_not_there():
 
 
 @pytest.mark.long
-def test_four_hundred_bolts_hold_two_plates_as_one_body():
+def test_hundreds_of_bolts_hold_two_plates_as_one_body():
     """Time grows as the number of pairs of parts does, and no faster: measured against half of the bolts."""
     times = []
-    for rows in (10, 20):
+    for rows in (7, 14):
         holes = [(10.0 * i, 10.0 * j) for i in range(20) for j in range(rows)]
         low, high = (-5, -5), (195, 10 * rows - 5)
         plates = [plate(name, (*low, z), (*high, z + 3), holes, 1.1) for name, z in (("lower", -3.0), ("upper", 0.0))]
