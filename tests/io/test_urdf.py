@@ -58,7 +58,7 @@ def test_robots_stand_closed_with_the_mobility_of_their_motors(folder, name):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("name", sorted(ROBOTS, key=lambda name: name == "robot_delta"))  # the last one is quickest
+@pytest.mark.parametrize("name", sorted(ROBOTS, key=lambda name: name == "robot_delta"))  # the last one in CI
 def test_all_motors_sweep_as_the_file_says(folder, name):
     path, assembly = robot(folder, name)
     mechanism = assembly.mechanism()
