@@ -16,8 +16,8 @@ def affine_image(
     """Map rows of coordinates by one matrix, whose last column is added, to coordinates x, y, z.
 
     It is a few vector operations, which XLA joins with what comes before and after. The derivative by the matrix is a
-    product of matrices, row by row: in a reverse pass that is the product of a matrix and a vector, which XLA on a CPU
-    takes a tenth of the time for that it takes for as many sums over points (jaxlib 0.10.2).
+    product of matrices, row by row: in a reverse pass that is the product of a matrix and a vector, for which XLA on a
+    CPU takes 17 us with 14 rows of 10,000 points, and 106 for as many sums by themselves (jaxlib 0.10.2).
     """
     x, y, z = (line[-1] + _combined(line, rows) for line in matrix)
     return x, y, z

@@ -13,6 +13,7 @@ import math
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jax import lax
 from jaxtyping import Array, Float
 
 TURN = 2 * math.pi
@@ -95,27 +96,10 @@ def _cos_sin_jvp(primals, tangents):
 
 
 @jax.custom_jvp
-def cos_and_sin(angles: Float[Array, "*rows"]) -> tuple[Float[Array, "*rows"], Float[Array, "*rows"]]:
-    """Compute the cosines and the sines of angles in radians, as two arrays.
-
-    In a reverse pass XLA joins their derivatives with what comes before and after; those of the rows of `cos_sin` are
-    padded to arrays of two rows each, and added.
-    """
-    cos, sin = cos_sin(angles)
-    return cos, sin
-
-
-@cos_and_sin.defjvp
-def _cos_and_sin_jvp(primals, tangents):
-    cos, sin = cos_and_sin(*primals)
-    return (cos, sin), (-sin * tangents[0], cos * tangents[0])
-
-
-@jax.custom_jvp
 def known_cos_and_sin(
     angles: Float[Array, "*rows"], known: tuple[Float[Array, "*rows"], Float[Array, "*rows"]]
 ) -> tuple[Float[Array, "*rows"], Float[Array, "*rows"]]:
-    """Return the cosines and sines of angles that are `known` already, as functions of the angles."""
+    """Return the cosines and sines of angles in radians that are `known` already, as functions of the angles."""
     return known
 
 
@@ -123,6 +107,16 @@ def known_cos_and_sin(
 def _known_cos_and_sin_jvp(primals, tangents):
     cos, sin = known_cos_and_sin(*primals)
     return (cos, sin), (-sin * tangents[0], cos * tangents[0])
+
+
+def cos_and_sin(angles: Float[Array, "*rows"]) -> tuple[Float[Array, "*rows"], Float[Array, "*rows"]]:
+    """Compute the cosines and the sines of angles in radians, as two arrays.
+
+    In a reverse pass XLA joins their derivatives with what comes before and after; those of the rows of `cos_sin` are
+    padded to arrays of two rows each, and added.
+    """
+    cos, sin = cos_sin(lax.stop_gradient(angles))
+    return known_cos_and_sin(angles, (cos, sin))
 
 
 @jax.custom_jvp

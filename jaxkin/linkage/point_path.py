@@ -40,9 +40,10 @@ class _Step(NamedTuple):
 def point_path(
     linkage: Linkage, displacements: JointDisplacements, part: str, point: Float[Array, "3"]
 ) -> Float[Array, "poses 3"]:
-    """Compute the path of a point of a part, given where it is in the assembled pose, in the world.
+    """Compute the path of a point of a part, in world coordinates, from where it is in the assembled pose.
 
-    Poses in which a joint on the way has no finite displacement are NaN, with derivatives of zero.
+    Lengths are in the unit of the mechanism. Poses in which a joint on the way has no finite displacement are NaN, with
+    derivatives of zero.
     """
     hangs = {part: (parent, joint, sign) for part, parent, joint, sign in linkage.structure.tree}
     poses = displacements[0].shape[0]

@@ -67,7 +67,6 @@ def _derivative_of_formulas(system: LoopSystem, primals, tangents):
         # what was found is a function of axes and inputs, too, for the next derivative
         rows = _with_derivative(system, *primals)
         d_axes, d_values, _ = tangents
-
         turns = {column: Complex(*known_cos_and_sin(rows[column], tuple(own))) for column, own in found.turns.items()}
 
         def slopes_of(group) -> list[Float[Array, " group"]]:
