@@ -3,8 +3,8 @@
 Most of their time goes into compiling. Programs once compiled are kept beside pytest's own cache: all processes of a
 run share them, and the next run has them (`pytest --cache-clear` begins anew). So is the byte code of Python where the
 environment forbids to write it beside the modules: a process that compiles JAX anew takes 6 s to begin in place of 2.
-The default run, and that of CI (`pytest -m "long and not study"`), compile with few optimisations, in a third of the
-time; `pytest -m long`, and a run of all (`pytest -m ""`), test the programs that users get.
+The default run, and that of CI (`pytest -m "not study"`), compile with few optimisations, in a third of the time;
+`pytest -m long`, and a run of all (`pytest -m ""`), test the programs that users get.
 """
 
 import ctypes
@@ -25,7 +25,7 @@ FEW_OPTIMISATIONS = (
 
 
 def pytest_configure(config):
-    if config.option.markexpr in ("not long", "long and not study") and jax.__version_info__ < (0, 11):
+    if config.option.markexpr in ("not long", "not study", "long and not study") and jax.__version_info__ < (0, 11):
         # XLA ends the process at a flag that it does not know; later versions were not tried
         os.environ["XLA_FLAGS"] = f"{os.environ.get('XLA_FLAGS', '')} {FEW_OPTIMISATIONS}"
     if not hasattr(config, "cache"):
@@ -51,17 +51,26 @@ def pytest_addoption(parser):
     parser.addoption(
         "--last-case",
         action="store_true",
-        help="of each test with several cases the last one, as the others repeat what costs most",
+        help="of each test with several cases the last one, if -m leaves that, as the others repeat what costs most",
+    )
+    parser.addoption(
+        "--last-long-case",
+        action="store_true",
+        help="of each test with several long cases that are no study the last of these, and all that are not long",
     )
 
 
 def pytest_collection_modifyitems(config, items):
-    """With `--last-case` leave out all cases of a test but the last one."""
-    if not config.getoption("last_case"):
+    """With `--last-case` or `--last-long-case` leave out all cases of a test but the last one."""
+    only_long = config.getoption("last_long_case")
+    if not (only_long or config.getoption("last_case")):
         return
 
     def test(item) -> str:
-        return item.nodeid if item.nodeid.startswith(EVERY_CASE) else item.nodeid.partition("[")[0]
+        every = item.nodeid.startswith(EVERY_CASE)
+        if only_long:
+            every = every or item.get_closest_marker("long") is None or item.get_closest_marker("study") is not None
+        return item.nodeid if every else item.nodeid.partition("[")[0]
 
     last = {test(item): item for item in items}
     config.hook.pytest_deselected(items=[item for item in items if last[test(item)] is not item])
