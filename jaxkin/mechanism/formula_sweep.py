@@ -1,14 +1,15 @@
 """The sweep of a drive whose loop groups all have formulas: one program from the inputs to all displacements.
 
-The program is compiled for a single pose and for `CHUNK` of them, and serves ranges of any length: short ones are
-padded, long ones cut into chunks, of `DEVICE_GROUP` poses on a device that is no CPU. What it finds for the chunks is
-joined, cut to length and collected by joint afterwards.
+The program is compiled for a single pose, for `CHUNK` of them and, for long ranges, for `LONG_CHUNK`, and serves ranges
+of any length: they are cut into chunks, of `DEVICE_GROUP` poses on a device that is no CPU, and padded. The chunks of
+long ranges are shared by the cores. What is found for the chunks is joined, cut to length and collected by joint
+afterwards.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache, partial
 from typing import Any, NamedTuple
 
@@ -25,16 +26,21 @@ from jaxkin.solve.closed_form.assembled_axes import AssembledAxes
 from jaxkin.solve.closed_form.formula_displacements import joint_displacements
 from jaxkin.solve.closed_form.input_line import InputLine, PassedLine, passed_range
 from jaxkin.solve.closed_form.range_by_formula import find_poses_by_formula, line_of
-from jaxkin.solve.device import group_for_device
+from jaxkin.solve.device import group_for_device, on_cpu
 from jaxkin.solve.execution.compiler import count_trace, jit_options
+from jaxkin.solve.execution.cores import continue_ball_angles, in_threads
 from jaxkin.solve.status import ClosureTolerance, Status
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
-from jaxkin.solve.system.state import turning
 
 CHUNK = 384
 """Poses of one call of the program, enough for one a degree. A call costs a CPU as much as some 200 poses of a
 four-bar."""
+LONG_CHUNK = 4096
+"""Poses of one call for long ranges: 100,000 poses of a four-bar take half as long as in chunks of `CHUNK`, on one
+core, and as long in chunks of 16,384."""
+LONG_RANGE = 2 * LONG_CHUNK
+"""Least number of poses of a long range: fewer take less time than to compile a program for `LONG_CHUNK` saves."""
 OFTEN = 3
 """Calls with the same number of poses from which on a program of its own collects what is found by joint. To do that on
 the host takes 0.1 ms longer, to trace and compile that program some 90 of the processor."""
@@ -104,11 +110,15 @@ class FormulaSweep:
         self.program, self.single = _program(systems, inputs), _single(sources, systems, inputs)
 
     def solve(
-        self, values: tuple[InputValues, ...], finite: Bool[np.ndarray, " poses"] | None, tolerance: ClosureTolerance
+        self,
+        values: tuple[InputValues, ...],
+        finite: Bool[np.ndarray, " poses"] | None,
+        tolerance: ClosureTolerance,
+        cores: int,
     ) -> Collected | None:
         """Find the poses for finite known `values`; None where the formulas do not prove that all of them are closed.
 
-        Poses are NaN where they are not `finite`: their values stand in for others.
+        Poses are NaN where they are not `finite`: their values stand in for others. Long ranges are shared by `cores`.
         """
         if not self.may_close:
             return None
@@ -122,9 +132,16 @@ class FormulaSweep:
         if poses == 1:
             collected, *proven = self.single(self.numbers, lines, rows, finite, on_device)
         else:
-            length = CHUNK if poses <= CHUNK else group_for_device(CHUNK)
-            pieces = [_chunk(rows, begin, length) for begin in range(0, poses, length)]
-            chunks = [self.program(self.numbers, lines, piece, on_device) for piece in pieces]
+            long = poses >= LONG_RANGE and on_cpu()
+            if long and not all(isinstance(line, PassedLine) for line in lines):
+                return None  # of many poses near a limit or beyond it some are hardly proven
+            length = CHUNK if poses <= CHUNK else group_for_device(LONG_CHUNK if long else CHUNK)
+
+            def found(starts: Sequence[int]) -> list[_Found]:
+                return [self.program(self.numbers, lines, _chunk(rows, begin, length), on_device) for begin in starts]
+
+            starts = range(0, poses, length)
+            chunks = _on_cores(found, starts, cores) if long else found(starts)
             proven = [chunk.proven for chunk in chunks]
             # before it is known whether all are closed: the processor is at it while Python waits for that
             collected = None if traced(proven) else self._collected(chunks, rows, finite)
@@ -153,11 +170,11 @@ class FormulaSweep:
         return _known_line(system, line_of(system, axes, values[None])).for_inputs(values / axes.length)
 
     def _collected(self, chunks: list[_Found], rows: np.ndarray, finite: np.ndarray | None) -> Collected:
-        """Collect what was found for the chunks: by a program, or on the host where so many poses are rare."""
+        """Collect what was found for the chunks: by a program, or on the host where so many poses are rare, or long."""
         several = self.systems if len(chunks) > 1 else None
         found = [(chunk.displaced, chunk.residual) for chunk in chunks]
         _uses[id(self.program), rows.shape[1]] += 1
-        if _uses[id(self.program), rows.shape[1]] < OFTEN:
+        if rows.shape[1] >= LONG_RANGE or _uses[id(self.program), rows.shape[1]] < OFTEN:
             collected = _collect_chunks(self.sources, several, jax.tree.map(np.asarray, found), rows, finite, np)
             return jax.device_put(collected)
         return _collect_program(self.sources, several, found, rows, finite)
@@ -166,6 +183,14 @@ class FormulaSweep:
 def _known_line(system: LoopSystem, line: InputLine) -> _KnownLine:
     """Find the range of inputs that the motion passes without doubt along a line."""
     return _KnownLine(line, PassedLine(line.signs, line.windings), *passed_range(system, line))
+
+
+def _on_cores(found: Callable[[Sequence[int]], list[_Found]], starts: Sequence[int], cores: int) -> list[_Found]:
+    """Find the chunks that begin at `starts` on several cores, behind the first one, for which the program is
+    compiled."""
+    share = max(1, -(-(len(starts) - 1) // cores))
+    shares = [starts[:1], *(starts[begin : begin + share] for begin in range(1, len(starts), share))]
+    return [chunk for own in in_threads(found, shares, cores) for chunk in own]
 
 
 def _chunk(rows: np.ndarray, begin: int, length: int) -> np.ndarray:
@@ -207,7 +232,7 @@ def _collect_chunks(
 
     It is to formulas what `collect` is to the general solver.
 
-    Where `systems` are given, angles of their balls are unwrapped from chunk to chunk. Poses that are not `finite`
+    Where `systems` are given, angles of their balls go on from chunk to chunk. Poses that are not `finite`
     become NaN. `xp` is jax.numpy or numpy.
     """
     poses = rows.shape[1]
@@ -215,20 +240,25 @@ def _collect_chunks(
     def whole(*pieces):
         return xp.concatenate(pieces, axis=-1)[..., :poses]
 
+    if systems:
+        groups = zip(systems, *(displaced for displaced, _ in found), strict=True)
+        continued = [continue_ball_angles(system, own, xp) for system, *own in groups]
+        found = [(own, residual) for own, (_, residual) in zip(zip(*continued, strict=True), found, strict=True)]
     displaced, residual = jax.tree.map(whole, *found)
     nothing = xp.zeros((poses,), rows.dtype)
     place: dict[JointCoordinate, Any] = {}
-    for number, (columns, own) in enumerate(zip(sources.columns, displaced, strict=True)):
+    for columns, own in zip(sources.columns, displaced, strict=True):
         place |= dict(zip(columns, own, strict=True))
-        for column in np.flatnonzero(turning(systems[number])) if systems else ():
-            place[columns[column]] = xp.unwrap(own[column])
     place |= dict(zip(sources.driven, rows, strict=True))  # inputs as they were given
 
     def finished(row, otherwise: float | int = np.nan):
         return row if finite is None else xp.where(finite if row.ndim == 1 else finite[:, None], row, otherwise)
 
+    def beside_each_other(rows):
+        return rows[0][:, None] if len(rows) == 1 else xp.stack(rows, axis=1)  # in NumPy a stack is a copy
+
     moved = {
-        joint: finished(xp.stack([place.get((joint, k), nothing) for k in range(sources.freedoms[joint])], axis=1))
+        joint: finished(beside_each_other([place.get((joint, k), nothing) for k in range(sources.freedoms[joint])]))
         for joint in sorted({joint for joint, _ in place})
     }
     resting = {

@@ -11,7 +11,6 @@ import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache, partial
-from itertools import pairwise
 from typing import Any
 
 import jax
@@ -115,19 +114,26 @@ def in_threads(function: Callable[[Any], Any], each: Sequence[Any], threads: int
 
 @partial(jax.jit, static_argnums=(0, 1))
 def _joined(system: LoopSystem, overlap: int, shards: list[tuple]) -> tuple:
-    """Join the shards; the angles of balls are unwrapped across their ends."""
+    """Join the shards; the angles of balls go on across their ends."""
     *others, last = shards
     shards = [*others, jax.tree.map(lambda rows: rows[..., overlap:], last)]
+    rows, *rest = zip(*shards, strict=True)
+    joined = (continue_ball_angles(system, rows), *rest)
+    return tuple(jax.tree.map(lambda *each: jnp.concatenate(each, axis=-1), *pieces) for pieces in joined)
+
+
+def continue_ball_angles(system: LoopSystem, pieces: Sequence[Any], xp: Any = jnp) -> list[Any]:
+    """Add to the angles of balls in each piece of a range the full turns by which they go on from the piece before.
+
+    The pieces are displacements (columns, poses), arrays of `xp`, jax.numpy or numpy.
+    """
     free = turning(system)
-    shift = jnp.zeros_like(last[0][:, :1])
-    continued = shards[:1]
-    for before, here in pairwise(shards):
+    continued = list(pieces[:1])
+    for here in pieces[1:]:
         if np.any(free):
-            leap = jnp.round((before[0][:, -1:] - here[0][:, :1]) / TURN)
-            shift = shift + TURN * leap * free
-            here = (here[0] + shift, *here[1:])
+            here = here + TURN * free * xp.round((continued[-1][:, -1:] - here[:, :1]) / TURN)
         continued.append(here)
-    return jax.tree.map(lambda *rows: jnp.concatenate(rows, axis=-1), *continued)
+    return continued
 
 
 @cache

@@ -108,11 +108,12 @@ def project(
 
 
 def prefers_formulas(options: SolverOptions, inputs: Float[Array | np.ndarray, "*driven poses"]) -> bool:
-    """Tell whether a range goes by formulas, if there are some: CPUs interpolate long ones, which costs less a pose."""
-    return _asks_for_formulas(options, inputs) and (inputs.shape[-1] < options.interpolate_from or not on_cpu())
+    """Tell whether a loop group that has formulas, beside such that have none, goes by them: CPUs interpolate long
+    ranges, which costs less a pose."""
+    return may_use_formulas(options, inputs) and (inputs.shape[-1] < options.interpolate_from or not on_cpu())
 
 
-def _asks_for_formulas(options: SolverOptions, inputs: Float[Array | np.ndarray, "*driven poses"]) -> bool:
+def may_use_formulas(options: SolverOptions, inputs: Float[Array | np.ndarray, "*driven poses"]) -> bool:
     """Tell whether poses may be computed by formulas, where there are some."""
     return options.formulas and options.method == CONTINUATION and inputs.dtype == np.float64
 
@@ -128,7 +129,7 @@ def _formulas_suffice(
 
     Where only the inputs are traced, a mechanism that has limits gets the general program, which follows them.
     """
-    if not _asks_for_formulas(options, inputs) or why_not_all(system) is not None:
+    if not may_use_formulas(options, inputs) or why_not_all(system) is not None:
         return False
     return axes is None or (line is not None and bool(line.passes & line.begins))
 
