@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from jaxkin.solve.closed_form import vectors
 from jaxkin.solve.closed_form.assembled_axes import AssembledAxes
 from jaxkin.solve.closed_form.complex_numbers import Complex, add, scale, subtract, times
 from jaxkin.solve.closed_form.coordinate import Coordinate, FormulaCoordinates
@@ -83,15 +84,14 @@ def displace(
     system, axes, chain, rows = section
     table = chain_tables(system)
     for row in rows if inverse else reversed(rows):
-        axis, centre = axes.direction[row, chain, :, None], axes.centre[row, chain, :, None]
+        axis, centre = Vector.of(axes.direction[row, chain]), Vector.of(axes.centre[row, chain])
         q = _known(x, int(table.column[row, chain])).times(axes.sense[row, chain])
         q = q.back() if inverse else q
         if table.turn[row, chain]:
-            lever = vector if free else vector - centre
-            lever = rotate(axis, q.turn, lever)
-            vector = lever if free else centre + lever
+            lever = rotate(axis, q.turn, vector if free else vectors.subtract(vector, centre))
+            vector = lever if free else vectors.add(centre, lever)
         if not free and (table.slide[row, chain] or table.screw[row, chain]):
-            vector = vector + axis * (axes.advance[row, chain] * q.value)
+            vector = vectors.add(vector, vectors.scale(axes.advance[row, chain] * q.value, axis))
     return vector
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from jaxkin.solve.closed_form.arithmetic import Number, ratio, root
 from jaxkin.solve.closed_form.equations import SlideRoot, TurnRoot, solve_slide, solve_turn
-from jaxkin.solve.closed_form.vectors import Vector, cross, dot
+from jaxkin.solve.closed_form.vectors import Vector, cross, dot, subtract
 
 
 def rod_turn(axis: Vector, centre: Vector, near: Vector, far: Vector, length: Number, sign: Number) -> TurnRoot:
@@ -16,7 +16,7 @@ def rod_turn(axis: Vector, centre: Vector, near: Vector, far: Vector, length: Nu
 
     `sign` is that of `signed_root_of_turn` in the assembled pose.
     """
-    one, other = near - centre, far - centre
+    one, other = subtract(near, centre), subtract(far, centre)
     along = dot(axis, one) * dot(axis, other)
     c = 0.5 * (dot(one, one) + dot(other, other) - length * length) - along
     return solve_turn(dot(one, other) - along, dot(one, cross(axis, other)), c, sign)
@@ -28,7 +28,7 @@ def rod_slide(axis: Vector, near: Vector, far: Vector, length: Number, sign: Num
     The discriminant is the squared cosine of the angle between rod and slide. `sign` is that of `signed_root_of_slide`
     in the assembled pose.
     """
-    apart = far - near
+    apart = subtract(far, near)
     along = dot(axis, apart)
     across = root(dot(cross(axis, apart), cross(axis, apart)))
     return solve_slide(along, (length - across) * (length + across), length * length, sign)
@@ -36,11 +36,11 @@ def rod_slide(axis: Vector, near: Vector, far: Vector, length: Number, sign: Num
 
 def signed_root_of_turn(axis: Vector, centre: Vector, near: Vector, far: Vector) -> Number:
     """Compute the root of the discriminant of `rod_turn`, with its sign, in a pose in which the unknown is 0."""
-    one, other = cross(axis, near - centre), cross(axis, far - centre)
+    one, other = cross(axis, subtract(near, centre)), cross(axis, subtract(far, centre))
     return ratio(dot(axis, cross(other, one)), root(dot(one, one) * dot(other, other)))
 
 
 def signed_root_of_slide(axis: Vector, near: Vector, far: Vector) -> Number:
     """Compute the root of the discriminant of `rod_slide`, with its sign, in a pose in which the unknown is 0."""
-    apart = far - near
+    apart = subtract(far, near)
     return ratio(dot(axis, apart), root(dot(apart, apart)))

@@ -24,9 +24,11 @@ from jaxkin.solve.closed_form.chain_motions import (
 from jaxkin.solve.closed_form.complex_numbers import Complex
 from jaxkin.solve.closed_form.coordinate import REST, Coordinate, FormulaCoordinates, found, given
 from jaxkin.solve.closed_form.group_formulas import GroupFormula, group_formulas
-from jaxkin.solve.closed_form.vectors import dot
+from jaxkin.solve.closed_form.vectors import Rotation, Vector, carry, cross, dot, subtract
 from jaxkin.solve.lockstep import computed_once
 from jaxkin.solve.system.loop_system import LoopSystem
+
+_UNTURNED = Rotation.of(np.eye(3))
 
 
 class Solved(NamedTuple):
@@ -169,22 +171,18 @@ def _planar(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, x: F
 def _spherical(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, x: FormulaCoordinates):
     """Find the axes and known rotations of a spherical triangle: the arguments of `spherical_triangle`."""
     chain, (one, two, three) = formula.chain, formula.rows
-    found = [axes.direction[row, chain, :, None] for row in formula.rows]
-    eye = np.eye(3)
+    found = [Vector.of(axes.direction[row, chain]) for row in formula.rows]
 
-    def rotated(begin: int, end: int | None, columns: Array | np.ndarray):
+    def turned(begin: int, end: int | None, rotation: Rotation) -> Rotation:
         section = ChainSection.of(system, axes, chain, begin, end)
-        turned = [displace(section, x, column[:, None], free=True) for column in columns]
-        xp = namespace(*turned)
-        return xp.stack(xp.broadcast_arrays(*turned), axis=1)
+        return Rotation(*(displace(section, x, column, free=True) for column in rotation))
 
-    behind = rotated(three + 1, None, axes.open_turn[chain].T)
-    before = rotated(0, one, eye)
-    xp = namespace(behind, before)
+    behind = turned(three + 1, None, Rotation.of(axes.open_turn[chain]))
+    before = turned(0, one, _UNTURNED)
     return found, [
-        rotated(one + 1, two, eye),
-        rotated(two + 1, three, eye),
-        xp.einsum("ijp,jkp->ikp", *xp.broadcast_arrays(behind, before)),
+        turned(one + 1, two, _UNTURNED),
+        turned(two + 1, three, _UNTURNED),
+        Rotation(*(carry(behind, column) for column in before)),
     ]
 
 
@@ -195,20 +193,19 @@ def _rod(system: LoopSystem, axes: AssembledAxes, formula: GroupFormula, x: Form
     chain, or whatever lies on the other side.
     """
     chain, (row,) = formula.chain, formula.rows
-    origin = np.zeros((3, 1))
-    near = displace(ChainSection.of(system, axes, chain, 0, row), x, origin, inverse=True)
-    far = displace(ChainSection.of(system, axes, chain, row + 1), x, axes.open_shift[chain, :, None])
+    near = displace(ChainSection.of(system, axes, chain, 0, row), x, Vector.of(np.zeros(3)), inverse=True)
+    far = displace(ChainSection.of(system, axes, chain, row + 1), x, Vector.of(axes.open_shift[chain]))
     other = formula.other_chain
     if other is None:
         raise ValueError(f"the loop of {formula} is not cut at a rod")
     end = _end(system, axes, other, x)
-    return near, far, namespace(end).sqrt(dot(end, end))
+    return near, far, namespace(*end).sqrt(dot(end, end))
 
 
 def _axis(axes: AssembledAxes, formula: GroupFormula):
     """Find the direction of the axis of the unknown, and a point on it."""
     here = formula.rows[0], formula.chain
-    return axes.direction[here][:, None], axes.centre[here][:, None]
+    return Vector.of(axes.direction[here]), Vector.of(axes.centre[here])
 
 
 def residual_norm(
@@ -238,12 +235,14 @@ def residual_norm(
         whole = ChainSection.of(system, axes, chain)
         end = _end(system, axes, chain, rows)
         square = square + dot(end, end)
-        for column, unit in zip(axes.open_turn[chain].T, np.eye(3), strict=True):
-            left = displace(whole, rows, column[:, None], free=True) - unit[:, None]
+        one, other, _ = Rotation.of(axes.open_turn[chain])
+        first, second = (displace(whole, rows, column, free=True) for column in (one, other))
+        for column, own in zip((first, second, cross(first, second)), _UNTURNED, strict=True):
+            left = subtract(column, own)
             square = square + dot(left, left)
     return xp.sqrt(square)
 
 
-def _end(system: LoopSystem, axes: AssembledAxes, chain: int, x: FormulaCoordinates):
-    """Find where a chain ends, (3, poses)."""
-    return displace(ChainSection.of(system, axes, chain), x, axes.open_shift[chain, :, None])
+def _end(system: LoopSystem, axes: AssembledAxes, chain: int, x: FormulaCoordinates) -> Vector:
+    """Find where a chain ends."""
+    return displace(ChainSection.of(system, axes, chain), x, Vector.of(axes.open_shift[chain]))

@@ -1,48 +1,90 @@
-"""Vectors and rotations of space, one or one a pose: products, and turns about unit axes."""
+"""Vectors and rotations of space, one or one a pose, kept as numbers: products, and turns about unit axes.
+
+Of an array of three rows XLA would write each product to memory, and read it again for the next one.
+"""
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin.solve.closed_form.arithmetic import Number, namespace
+from jaxkin.solve.closed_form.arithmetic import Number
 from jaxkin.solve.closed_form.complex_numbers import Complex, unit
 
-Vector = Float[Array | np.ndarray, "3 *#poses"]
-Rotation = Float[Array | np.ndarray, "3 3 *#poses"]
-"""[row, column]."""
+
+class Vector(NamedTuple):
+    """A vector of space."""
+
+    x: Number
+    y: Number
+    z: Number
+
+    @staticmethod
+    def of(coordinates: Float[Array | np.ndarray, "3"]) -> Vector:
+        """Make the vector that is the same in all poses."""
+        return Vector(coordinates[0:1], coordinates[1:2], coordinates[2:3])
+
+
+class Rotation(NamedTuple):
+    """A rotation of space: where it takes the three axes of coordinates, the columns of its matrix."""
+
+    x: Vector
+    y: Vector
+    z: Vector
+
+    @staticmethod
+    def of(matrix: Float[Array | np.ndarray, "3 3"]) -> Rotation:
+        """Make the rotation that is the same in all poses."""
+        return Rotation(*(Vector.of(matrix[:, column]) for column in range(3)))
+
+
+def add(one: Vector, other: Vector) -> Vector:
+    """Add two vectors."""
+    return Vector(one.x + other.x, one.y + other.y, one.z + other.z)
+
+
+def subtract(one: Vector, other: Vector) -> Vector:
+    """Subtract the second vector from the first."""
+    return Vector(one.x - other.x, one.y - other.y, one.z - other.z)
+
+
+def scale(number: Number, vector: Vector) -> Vector:
+    """Multiply a vector by a number."""
+    return Vector(number * vector.x, number * vector.y, number * vector.z)
 
 
 def dot(one: Vector, other: Vector) -> Number:
     """Compute the scalar product."""
-    return (one * other).sum(axis=0)
+    return one.x * other.x + one.y * other.y + one.z * other.z
 
 
 def cross(one: Vector, other: Vector) -> Vector:
     """Compute the vector product."""
-    return namespace(one, other).stack(
-        [
-            one[1] * other[2] - one[2] * other[1],
-            one[2] * other[0] - one[0] * other[2],
-            one[0] * other[1] - one[1] * other[0],
-        ]
+    return Vector(
+        one.y * other.z - one.z * other.y,
+        one.z * other.x - one.x * other.z,
+        one.x * other.y - one.y * other.x,
     )
 
 
 def carry(rotation: Rotation, vector: Vector) -> Vector:
-    """Rotate a vector by a matrix."""
-    return (rotation * vector[None]).sum(axis=1)
+    """Rotate a vector."""
+    x, y, z = (scale(number, column) for number, column in zip(vector, rotation, strict=True))
+    return add(add(x, y), z)
 
 
 def back(rotation: Rotation, vector: Vector) -> Vector:
-    """Rotate a vector by the inverse of a matrix."""
-    return (rotation * vector[:, None]).sum(axis=0)
+    """Rotate a vector by the inverse of a rotation."""
+    return Vector(*(dot(column, vector) for column in rotation))
 
 
 def rotate(axis: Vector, turn: Complex, vector: Vector) -> Vector:
     """Rotate a vector about a unit axis (Rodrigues)."""
-    along = axis * dot(axis, vector)
-    return along + turn.real * (vector - along) + turn.imag * cross(axis, vector)
+    along = scale(dot(axis, vector), axis)
+    across = add(scale(turn.real, subtract(vector, along)), scale(turn.imag, cross(axis, vector)))
+    return add(along, across)
 
 
 def turn_about(axis: Vector, begun: Vector, wanted: Vector) -> Complex:

@@ -6,11 +6,20 @@ import numpy as np
 import pytest
 
 from jaxkin.geometry.pose import rotation, unit
+from jaxkin.solve.closed_form import rod
 from jaxkin.solve.closed_form.equations import solve_turn
-from jaxkin.solve.closed_form.rod import rod_slide, rod_turn, signed_root_of_slide, signed_root_of_turn
+from jaxkin.solve.closed_form.vectors import Vector
 
 EPS = np.finfo(float).eps
-turn, slide = jax.jit(rod_turn), jax.jit(rod_slide)
+
+
+def of_arrays(function):
+    """The function, given arrays in place of vectors."""
+    return lambda *given: function(*(Vector(*each) if np.ndim(each) else each for each in given))
+
+
+turn, slide = of_arrays(jax.jit(rod.rod_turn)), of_arrays(jax.jit(rod.rod_slide))
+signed_root_of_turn, signed_root_of_slide = of_arrays(rod.signed_root_of_turn), of_arrays(rod.signed_root_of_slide)
 
 
 def drawn(seed):

@@ -6,10 +6,23 @@ import numpy as np
 import pytest
 
 from jaxkin.geometry.pose import rotation, unit
-from jaxkin.solve.closed_form.spherical_triangle import signed_root, spherical_triangle
+from jaxkin.solve.closed_form import spherical_triangle
+from jaxkin.solve.closed_form.vectors import Rotation, Vector
 
 EPS = np.finfo(float).eps
-solve = jax.jit(spherical_triangle)
+
+
+def of_arrays(function):
+    """The function, given arrays in place of vectors and rotations."""
+
+    def call(axes, between, *sign):
+        rotations = [Rotation(*(Vector(*column) for column in matrix.T)) for matrix in between]
+        return function([Vector(*axis) for axis in axes], rotations, *sign)
+
+    return call
+
+
+solve, signed_root = of_arrays(jax.jit(spherical_triangle.spherical_triangle)), of_arrays(spherical_triangle.signed_root)
 
 
 def drawn(seed):
