@@ -51,7 +51,7 @@ def test_tolerances_of_earlier_sweeps_are_let_go():
     asked = [closure_tolerance(10.0**-power) for power in (5, 6)]
     earlier = weakref.ref(asked[0].max_residual)
     for tolerance in asked:
-        assert sweep.solve(values, None, tolerance) is not None
+        assert sweep.solve(values, None, tolerance, 1) is not None
     _known_tolerance.cache_clear()
     del asked[0], tolerance
     gc.collect()
@@ -92,6 +92,34 @@ def test_results_are_joined_alike_by_a_program_and_on_the_host(often, monkeypatc
         # neighbouring poses are 0.019 rad apart at the crank; no angle of this linkage runs fifty times as fast
         assert np.max(np.abs(np.diff(rows, axis=0))) < 1.0
     np.testing.assert_allclose(motion.coordinates["A"][:, 0], inputs, atol=1e-15)
+
+
+@pytest.mark.long
+def test_long_ranges_are_shared_by_the_cores():
+    """In chunks of their own, the first of which compiles their program; poses are those of short ranges, also where
+    one of them has no number and angles of balls go on from chunk to chunk."""
+    mechanism, inputs = rssr_linkage(), np.linspace(0.0, 2 * TURN, 5 * formula_sweep.LONG_CHUNK + 11)
+    few = mechanism.sweep({"A": inputs[::64]})
+    inputs[77] = np.nan
+    before = compilations()
+    for cores in (1, 2, 3, 8):
+        motion = mechanism.sweep({"A": inputs}, options=jk.SolverOptions(cores=cores))
+        assert np.flatnonzero(motion.status != Status.CLOSED).tolist() == [77]
+        for found, expected in zip(motion.displacements, few.displacements, strict=True):
+            np.testing.assert_allclose(found[::64], expected, atol=1e-12)  # some roundings of two turns
+    assert compilations() - before == 1
+
+
+@pytest.mark.long
+def test_a_long_range_beside_a_limit_is_interpolated():
+    """A rocker that is driven as far as it goes: no range that the motion passes without doubt."""
+    mechanism = planar_fourbar()
+    inputs = np.linspace(-1.5, 0.6, formula_sweep.LONG_RANGE)
+    sweep = plan_drive(mechanism.linkage, ("D",)).formula_sweep
+    assert sweep is not None and sweep.solve((inputs,), None, closure_tolerance(None), 2) is None
+    motion, few = mechanism.sweep({"D": inputs}), mechanism.sweep({"D": inputs[::64]})
+    assert not np.all(motion.closed) and np.any(motion.closed)
+    assert np.array_equal(np.asarray(motion.status)[::64], few.status)
 
 
 def test_nan_among_known_inputs_spoils_no_other_pose():

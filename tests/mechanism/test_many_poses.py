@@ -1,4 +1,5 @@
-"""Ranges of so many poses that most are interpolated and checked: the same as one at a time, in whatever order.
+"""Ranges of so many poses that most are interpolated and checked, or found by formulas on several cores: the same as
+one at a time, in whatever order.
 
 Tolerance 1e-12, as for few poses: what is left of the closure after the last step is rounding.
 """
@@ -21,8 +22,9 @@ def displacement(angles, first):
 
 
 @pytest.mark.long
+@pytest.mark.parametrize("formulas", [True, False], ids=["formulas", "interpolated"])
 @pytest.mark.parametrize("order", ["rising", "falling", "shuffled", "repeated", "both ways"])
-def test_a_fourbar_in_any_order(order):
+def test_a_fourbar_in_any_order(order, formulas):
     turn = {
         "rising": TURN,
         "falling": TURN[::-1],
@@ -30,7 +32,7 @@ def test_a_fourbar_in_any_order(order):
         "repeated": np.repeat(TURN[:: POSES // 8], 1100)[:POSES],
         "both ways": np.linspace(-2.0, 3.0, POSES),
     }[order]
-    motion = planar_fourbar(1.0).sweep({"A": turn})
+    motion = planar_fourbar(1.0).sweep({"A": turn}, options=SolverOptions(formulas=formulas))
     assert np.all(motion.closed)
     assert np.max(motion.residual) < 1e-12
     rocker = [planar.fourbar(1.0 + angles).rocker for angles in (turn, np.zeros(1))]
@@ -38,12 +40,14 @@ def test_a_fourbar_in_any_order(order):
 
 
 @pytest.mark.long
-def test_a_cam_and_an_rssr_linkage():
+@pytest.mark.parametrize("formulas", [True, False], ids=["formulas", "interpolated"])
+def test_a_cam_and_an_rssr_linkage(formulas):
     """Line contact, and balls with an idle spin between them."""
-    motion = cam(0.5).sweep({"shaft": TURN})
+    options = SolverOptions(formulas=formulas)
+    motion = cam(0.5).sweep({"shaft": TURN}, options=options)
     height = higher_pairs.cam_flat_follower(0.5 + TURN)
     np.testing.assert_allclose(motion.coordinates["guide"][:, 0], height - height[0], atol=1e-11)  # mm, size 15
-    motion = rssr_linkage(0.3).sweep({"A": TURN})
+    motion = rssr_linkage(0.3).sweep({"A": TURN}, options=options)
     output = spatial.rssr(0.3 + TURN).output
     expected = displacement(output, output[0])
     np.testing.assert_allclose(motion.coordinates["D"][:, 0], expected, atol=1e-12)

@@ -13,7 +13,7 @@ from reference.planar_robots import five_bar
 
 TURN = 2 * np.pi
 LONG = jk.SolverOptions().interpolate_from + 7
-"""So many poses that a CPU interpolates them; no other test has a program of this length."""
+"""So many poses that a CPU interpolates them, or takes long chunks; no other test has a program of this length."""
 
 
 def on_another_device(monkeypatch) -> None:

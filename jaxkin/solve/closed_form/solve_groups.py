@@ -29,6 +29,7 @@ from jaxkin.solve.lockstep import computed_once
 from jaxkin.solve.system.loop_system import LoopSystem
 
 _UNTURNED = Rotation.of(np.eye(3))
+"""Takes each axis of coordinates to itself."""
 
 
 class Solved(NamedTuple):

@@ -22,7 +22,10 @@ def of_arrays(function):
     return call
 
 
-solve, signed_root = of_arrays(jax.jit(spherical_triangle.spherical_triangle)), of_arrays(spherical_triangle.signed_root)
+solve, signed_root = (
+    of_arrays(jax.jit(spherical_triangle.spherical_triangle)),
+    of_arrays(spherical_triangle.signed_root),
+)
 
 
 def drawn(seed):
