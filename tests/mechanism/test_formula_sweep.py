@@ -110,16 +110,13 @@ def test_long_ranges_are_shared_by_the_cores():
     assert compilations() - before == 1
 
 
-@pytest.mark.long
-def test_a_long_range_beside_a_limit_is_interpolated():
-    """A rocker that is driven as far as it goes: no range that the motion passes without doubt."""
-    mechanism = planar_fourbar()
-    inputs = np.linspace(-1.5, 0.6, formula_sweep.LONG_RANGE)
-    sweep = plan_drive(mechanism.linkage, ("D",)).formula_sweep
-    assert sweep is not None and sweep.solve((inputs,), None, closure_tolerance(None), 2) is None
-    motion, few = mechanism.sweep({"D": inputs}), mechanism.sweep({"D": inputs[::64]})
-    assert not np.all(motion.closed) and np.any(motion.closed)
-    assert np.array_equal(np.asarray(motion.status)[::64], few.status)
+def test_a_long_range_beyond_a_limit_is_left_to_the_general_solver():
+    """A rocker that is driven farther than it goes: without a call of the program, as not all poses can be proven."""
+    sweep = plan_drive(planar_fourbar().linkage, ("D",)).formula_sweep
+    assert sweep is not None
+    inputs, before = np.linspace(-1.5, 0.6, formula_sweep.LONG_RANGE), compilations()
+    assert sweep.solve((inputs,), None, closure_tolerance(None), 2) is None
+    assert compilations() == before
 
 
 def test_nan_among_known_inputs_spoils_no_other_pose():
