@@ -28,7 +28,7 @@ from jaxkin.solve.closed_form.input_line import InputLine, PassedLine, passed_ra
 from jaxkin.solve.closed_form.range_by_formula import find_poses_by_formula, line_of
 from jaxkin.solve.device import group_for_device, on_cpu
 from jaxkin.solve.execution.compiler import count_trace, jit_options
-from jaxkin.solve.execution.cores import continue_ball_angles, in_threads
+from jaxkin.solve.execution.cores import available_cores, continue_ball_angles, in_threads
 from jaxkin.solve.status import ClosureTolerance, Status
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
@@ -114,11 +114,12 @@ class FormulaSweep:
         values: tuple[InputValues, ...],
         finite: Bool[np.ndarray, " poses"] | None,
         tolerance: ClosureTolerance,
-        cores: int,
+        cores: int | None,
     ) -> Collected | None:
         """Find the poses for finite known `values`; None where the formulas do not prove that all of them are closed.
 
-        Poses are NaN where they are not `finite`: their values stand in for others. Long ranges are shared by `cores`.
+        Poses are NaN where they are not `finite`: their values stand in for others. Long ranges are shared by so many
+        `cores`, by all where it is None.
         """
         if not self.may_close:
             return None
@@ -132,7 +133,7 @@ class FormulaSweep:
         if poses == 1:
             collected, *proven = self.single(self.numbers, lines, rows, finite, on_device)
         else:
-            long = poses >= LONG_RANGE and on_cpu()
+            long = _is_long(poses)
             if long and not all(isinstance(line, PassedLine) for line in lines):
                 return None  # of many poses near a limit or beyond it some are hardly proven
             length = CHUNK if poses <= CHUNK else group_for_device(LONG_CHUNK if long else CHUNK)
@@ -141,7 +142,7 @@ class FormulaSweep:
                 return [self.program(self.numbers, lines, _chunk(rows, begin, length), on_device) for begin in starts]
 
             starts = range(0, poses, length)
-            chunks = _on_cores(found, starts, cores) if long else found(starts)
+            chunks = _on_cores(found, starts, cores or available_cores()) if long else found(starts)
             proven = [chunk.proven for chunk in chunks]
             # before it is known whether all are closed: the processor is at it while Python waits for that
             collected = None if traced(proven) else self._collected(chunks, rows, finite)
@@ -174,7 +175,7 @@ class FormulaSweep:
         several = self.systems if len(chunks) > 1 else None
         found = [(chunk.displaced, chunk.residual) for chunk in chunks]
         _uses[id(self.program), rows.shape[1]] += 1
-        if rows.shape[1] >= LONG_RANGE or _uses[id(self.program), rows.shape[1]] < OFTEN:
+        if _is_long(rows.shape[1]) or _uses[id(self.program), rows.shape[1]] < OFTEN:
             collected = _collect_chunks(self.sources, several, jax.tree.map(np.asarray, found), rows, finite, np)
             return jax.device_put(collected)
         return _collect_program(self.sources, several, found, rows, finite)
@@ -183,6 +184,11 @@ class FormulaSweep:
 def _known_line(system: LoopSystem, line: InputLine) -> _KnownLine:
     """Find the range of inputs that the motion passes without doubt along a line."""
     return _KnownLine(line, PassedLine(line.signs, line.windings), *passed_range(system, line))
+
+
+def _is_long(poses: int) -> bool:
+    """Tell whether a range is cut into long chunks, which cores share; other devices take all poses at once."""
+    return poses >= LONG_RANGE and on_cpu()
 
 
 def _on_cores(found: Callable[[Sequence[int]], list[_Found]], starts: Sequence[int], cores: int) -> list[_Found]:
@@ -232,23 +238,23 @@ def _collect_chunks(
 
     It is to formulas what `collect` is to the general solver.
 
-    Where `systems` are given, angles of their balls go on from chunk to chunk. Poses that are not `finite`
-    become NaN. `xp` is jax.numpy or numpy.
+    Where `systems` are given, angles of their balls go on from chunk to chunk. Poses that are not `finite` become NaN.
+    `xp` is jax.numpy or numpy.
     """
     poses = rows.shape[1]
 
     def whole(*pieces):
         return xp.concatenate(pieces, axis=-1)[..., :poses]
 
+    displaced, residuals = zip(*found, strict=True)
+    of_groups = list(zip(*displaced, strict=True))  # the chunks of each loop group
     if systems:
-        groups = zip(systems, *(displaced for displaced, _ in found), strict=True)
-        continued = [continue_ball_angles(system, own, xp) for system, *own in groups]
-        found = [(own, residual) for own, (_, residual) in zip(zip(*continued, strict=True), found, strict=True)]
-    displaced, residual = jax.tree.map(whole, *found)
+        of_groups = [continue_ball_angles(system, own, xp) for system, own in zip(systems, of_groups, strict=True)]
+    residual = whole(*residuals)
     nothing = xp.zeros((poses,), rows.dtype)
     place: dict[JointCoordinate, Any] = {}
-    for columns, own in zip(sources.columns, displaced, strict=True):
-        place |= dict(zip(columns, own, strict=True))
+    for columns, own in zip(sources.columns, of_groups, strict=True):
+        place |= dict(zip(columns, whole(*own), strict=True))
     place |= dict(zip(sources.driven, rows, strict=True))  # inputs as they were given
 
     def finished(row, otherwise: float | int = np.nan):

@@ -26,7 +26,6 @@ from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.targets import with_targets
 from jaxkin.solve.correctors.least_residual import least_residual
 from jaxkin.solve.execution.compiler import jit_options
-from jaxkin.solve.execution.cores import available_cores
 from jaxkin.solve.execution.known_numbers import KnownRange, Outcome, compile_together
 from jaxkin.solve.execution.programs import may_use_formulas, prefers_formulas, solve
 from jaxkin.solve.options import SolverOptions, options_with
@@ -110,8 +109,8 @@ def _follow(mechanism: Mechanism, drive: Mapping[str, Any], options: SolverOptio
     known = not traced_tolerance and all(isinstance(each, np.ndarray) for each in followed)
     # by formulas for all loop groups in one program; where some have none, each loop group decides in `programs.solve`
     if loop_groups and plan.formula_sweep is not None and known and may_use_formulas(options, followed[0]):
-        kept, cores = None if finite is None else np.asarray(finite), options.cores or available_cores()
-        found = plan.formula_sweep.solve(followed, kept, asked, cores)
+        kept = None if finite is None else np.asarray(finite)
+        found = plan.formula_sweep.solve(followed, kept, asked, options.cores)
         if found is not None:
             found = found if finite is None else found._replace(inputs=values)
             return _motion(mechanism, plan, found, options)

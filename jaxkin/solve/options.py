@@ -63,8 +63,8 @@ class SolverOptions:
     """Steps of the damped corrector, at most, for the assembled pose, and for a pose that is to be closed or to be
     brought to its least residual by itself; ten times as many for a pose far beyond a limit."""
     interpolate_from: int = 8192
-    """Ranges of at least this number of poses are interpolated between a few that were solved, and checked, unless all
-    loops that move have formulas."""
+    """Ranges of at least this number of poses are interpolated between a few that were solved, and checked, but
+    for those that formulas of all loops find."""
     cores: int | None = None
     """Processor cores that share a range, at most. None: all that this process may use."""
     min_shard_poses: int | None = None

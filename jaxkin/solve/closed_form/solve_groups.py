@@ -238,6 +238,7 @@ def residual_norm(
         square = square + dot(end, end)
         one, other, _ = Rotation.of(axes.open_turn[chain])
         first, second = (displace(whole, rows, column, free=True) for column in (one, other))
+        # two columns of a rotation tell the third one, without a displacement of its own
         for column, own in zip((first, second, cross(first, second)), _UNTURNED, strict=True):
             left = subtract(column, own)
             square = square + dot(left, left)

@@ -15,7 +15,7 @@ from jaxkin.solve.closed_form.complex_numbers import Complex, unit
 
 
 class Vector(NamedTuple):
-    """A vector of space."""
+    """A vector of space, by coordinates of shape (1,) or (poses,)."""
 
     x: Number
     y: Number
@@ -23,7 +23,7 @@ class Vector(NamedTuple):
 
     @staticmethod
     def of(coordinates: Float[Array | np.ndarray, "3"]) -> Vector:
-        """Make the vector that is the same in all poses."""
+        """Make the vector that is the same in all poses, by coordinates of shape (1,)."""
         return Vector(coordinates[0:1], coordinates[1:2], coordinates[2:3])
 
 

@@ -108,8 +108,8 @@ def project(
 
 
 def prefers_formulas(options: SolverOptions, inputs: Float[Array | np.ndarray, "*driven poses"]) -> bool:
-    """Tell whether a loop group that has formulas, beside such that have none, goes by them: CPUs interpolate long
-    ranges, which costs less a pose."""
+    """Tell whether a loop group that has formulas goes by them where it is solved by itself: CPUs interpolate long
+    ranges then, as formulas would have one core for all poses."""
     return may_use_formulas(options, inputs) and (inputs.shape[-1] < options.interpolate_from or not on_cpu())
 
 
